@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace antiradiance {
+
+namespace {
+constexpr auto kPollInterval = std::chrono::milliseconds(20);
+}
+
+void parallel_for(std::size_t count, Progress& progress,
+                  const std::function<void(std::size_t)>& body, ProgressSpan span) {
+    if (count == 0) return;
+    if (count == 1) {
+        progress.report(span.begin);
+        body(0);
+        return;
+    }
+
+    std::atomic<std::size_t> done{0};
+    std::mutex mutex;
+    std::condition_variable finished_changed;
+    bool finished = false;
+    std::exception_ptr loop_error;
+
+    std::thread loop([&] {
+        try {
+            tbb::parallel_for(
+                std::size_t{0}, count,
+                [&](std::size_t i) {
+                    progress.check();
+                    body(i);
+                    done.fetch_add(1, std::memory_order_relaxed);
+                },
+                tbb::auto_partitioner{});
+        } catch (...) {
+            loop_error = std::current_exception();
+        }
+        const std::scoped_lock lock(mutex);
+        finished = true;
+        finished_changed.notify_one();
+    });
+
+    std::exception_ptr callback_error;
+    {
+        std::unique_lock lock(mutex);
+        while (!finished_changed.wait_for(lock, kPollInterval, [&] { return finished; })) {
+            if (callback_error) continue;
+            lock.unlock();
+            try {
+                const float fraction = static_cast<float>(done.load()) / static_cast<float>(count);
+                progress.report(span.begin + (span.end - span.begin) * fraction);
+            } catch (...) {
+                callback_error = std::current_exception();
+                progress.cancel();
+            }
+            lock.lock();
+        }
+    }
+    loop.join();
+    // The callback's own error is the cause when both are set: the bodies only saw the cancellation.
+    if (callback_error) std::rethrow_exception(callback_error);
+    if (loop_error) std::rethrow_exception(loop_error);
+}
+
+void parallel_for_blocks(std::size_t count, std::size_t block, Progress& progress,
+                         const std::function<void(std::size_t, std::size_t)>& body,
+                         ProgressSpan span) {
+    const std::size_t blocks = (count + block - 1) / block;
+    parallel_for(
+        blocks, progress,
+        [&](std::size_t i) { body(i * block, std::min(count, (i + 1) * block)); }, span);
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace antiradiance {
+
+// How the visibility between two nodes enters the transport.
+enum class Visibility {
+    kImplicit,  // unoccluded + links; - links carry the light that a surface blocks (Eq. 3, 4)
+    kExplicit,  // + links weighted by rays, no - links: hierarchical radiosity (operator G)
+};
+
+}  // namespace antiradiance

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every setting of the engine, once: name, unit, range, default and tooltip. Blender's properties,
+// the command line's flags and the JSON report are all made from `option_schema()`.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "display/display_options.h"
+#include "links/link_options.h"
+#include "solve/solve_options.h"
+
+namespace antiradiance {
+
+struct Options {
+    Visibility visibility = Visibility::kExplicit;
+    DirectLightMode direct_light = DirectLightMode::kExplicit;
+    int direction_bins = 128;      // 32..1024
+    int iterations = 0;            // 0: until the residual is below 1e-4
+    float link_threshold = 0.02F;  // form factor, 0.0005..0.5
+    float max_patch_size = 0;      // m, longest edge; 0: from the scene's size
+    int visibility_rays = 4;       // per link, 1..64
+    SolverChoice solver = SolverChoice::kAuto;
+    DisplayMode display = DisplayMode::kPatches;
+    std::string report_path;       // empty: no report is written
+
+    bool operator==(const Options&) const = default;
+};
+
+struct EnumItem {
+    std::string_view id;  // as Blender and the command line spell it
+    std::string_view label;
+    std::string_view tooltip;
+};
+
+enum class OptionType { kEnum, kInt, kFloat, kPath, kBool };
+enum class OptionUnit { kNone, kLength, kFactor };
+
+// A pointer to the member that an option sets; enums go through their index in `items`.
+struct OptionAccess {
+    std::variant<int, float, std::string, bool> (*get)(const Options&);
+    void (*set)(Options&, const std::variant<int, float, std::string, bool>&);
+};
+
+struct OptionInfo {
+    std::string_view name;
+    std::string_view label;
+    std::string_view tooltip;  // Blender's style: starts with a capital, no full stop
+    OptionType type;
+    OptionUnit unit = OptionUnit::kNone;
+    double min = 0, max = 0;            // hard limits
+    double soft_min = 0, soft_max = 0;  // of a slider
+    int precision = 3;                  // digits behind the point, floats
+    std::vector<EnumItem> items;        // enums; an item's index is its value
+    OptionAccess access;
+};
+
+// In display order. Defaults are read from a default-constructed Options.
+std::span<const OptionInfo> option_schema();
+
+using OptionValue = std::variant<int, float, std::string, bool>;
+
+// Sets one option by name; enums by id. Throws SceneError that lists the valid names, ids or range.
+void set_option(Options& options, std::string_view name, const OptionValue& value);
+
+}  // namespace antiradiance

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rays against the original triangles (Embree 3 or 4). The only file pair that knows Embree.
+#pragma once
+
+#include <memory>
+
+#include "scene/scene.h"
+
+namespace antiradiance {
+
+struct RayHit {
+    TriangleId triangle = kNone;  // kNone: nothing hit
+    bool back_side = false;       // the triangle was hit from behind
+    vec2 barycentric{0};          // weights of corners 1 and 2
+    float distance = 0;           // m
+    [[nodiscard]] bool hit() const { return triangle != kNone; }
+};
+
+class RayScene {
+public:
+    // Borrows nothing: copies what it needs. Builds on all cores.
+    explicit RayScene(const Scene& scene);
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
+
+    // `direction` is unit length. From any thread.
+    [[nodiscard]] RayHit intersect(const vec3& origin, const vec3& direction, float near = 0,
+                                   float far = kInfinity) const;
+    // True when a triangle blocks the open segment from a to b. Both ends are pulled in by
+    // epsilon(), so surfaces that hold a or b do not count; offset a and b along their own normals
+    // by epsilon() first when they lie on a surface.
+    [[nodiscard]] bool occluded(const vec3& a, const vec3& b) const;
+    // Towards infinity.
+    [[nodiscard]] bool escapes(const vec3& origin, const vec3& direction) const;
+
+    // m, the length below which two points count as one: 1e-5 of the scene's largest coordinate extent.
+    [[nodiscard]] float epsilon() const { return epsilon_; }
+
+    static constexpr float kInfinity = 1e30F;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    float epsilon_ = 0;
+};
+
+}  // namespace antiradiance
