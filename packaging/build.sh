@@ -15,8 +15,10 @@ if [ ! -f "$folder/build.ninja" ]; then
 fi
 # A compiler process takes up to 1.5 GB here: no more at once than memory allows.
 jobs=$(nproc)
-memory_jobs=$(($(awk '/MemAvailable/ {print $2}' /proc/meminfo) / 1500000))
-if [ "$memory_jobs" -lt "$jobs" ]; then
-    jobs=$((memory_jobs > 0 ? memory_jobs : 1))
+if [ -r /proc/meminfo ]; then
+    memory_jobs=$(($(awk '/MemAvailable/ {print $2}' /proc/meminfo) / 1500000))
+    if [ "$memory_jobs" -lt "$jobs" ]; then
+        jobs=$((memory_jobs > 0 ? memory_jobs : 1))
+    fi
 fi
 cmake --build "$folder" --parallel "$jobs"
