@@ -10,6 +10,7 @@ if(TARGET _antiradiance)
 endif()
 add_custom_target(stage_addon ALL
   COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DSTAGE=${ANTIRADIANCE_ADDON_DIR} -DMODULE=${module}
+          -DPYTHON=${Python_EXECUTABLE}
           -P ${PROJECT_SOURCE_DIR}/cmake/stage_addon_run.cmake
   VERBATIM)
 if(TARGET _antiradiance)
