@@ -34,7 +34,8 @@ public:
     // Towards infinity.
     [[nodiscard]] bool escapes(const vec3& origin, const vec3& direction) const;
 
-    // m, the length below which two points count as one: 1e-5 of the scene's largest coordinate extent.
+    // m, the length below which two points count as one: 1e-5 of the scene's largest extent, and no
+    // less than float can tell apart where the scene lies.
     [[nodiscard]] float epsilon() const { return epsilon_; }
 
     static constexpr float kInfinity = 1e30F;

@@ -44,6 +44,9 @@ struct Lamp {
     float radius = 0;      // m, of the sphere of a point or spot lamp
     float spot_angle = 0;  // rad, full cone
     float spot_blend = 0;  // 0..1, share of the cone that fades
+    // Cycles of Blender 3.4 multiplies a spot's intensity by the cosine to its axis and ignores a
+    // non-uniform scale (measured); newer ones do neither.
+    bool spot_cosine = false;
     float sun_angle = 0;   // rad, full angle of the disk
     AreaShape shape = AreaShape::kRectangle;
     vec2 size{1};          // m, full extents along local x and y of an area lamp
@@ -89,6 +92,8 @@ struct Scene {
     bool has_camera = false;
     vec3 background{0};                 // radiance seen where no surface is
     std::vector<std::string> warnings;  // of whoever filled the scene
+    std::vector<std::string> problems;  // found while it was filled; validate() throws them
+    std::int32_t polygon_count = 0;     // ids in triangle_polygon are below this
 
     [[nodiscard]] std::array<vec3, 3> corners(TriangleId t) const {
         const uvec3 v = triangles[static_cast<std::size_t>(t)];
@@ -119,7 +124,9 @@ struct MeshInput {
 };
 
 // Appends the mesh in world space. A mirroring matrix also flips the winding, so that fronts stay
-// fronts. Throws nothing: what is wrong with the numbers is found by validate().
+// fronts. Throws nothing: what is wrong is left in Scene::problems or found by validate().
+// A slot that holds no material gets a grey one (albedo 0.8, as Blender shows it); a slot number
+// beyond the last means the last, as in Blender.
 void add_mesh(Scene& scene, const MeshInput& mesh);
 
 }  // namespace antiradiance
