@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Python module `_antiradiance`, piece by piece. This folder alone includes pybind11.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace antiradiance {
+
+void bind_schema(pybind11::module_& module);   // options_schema
+void bind_scene(pybind11::module_& module);    // Scene
+void bind_session(pybind11::module_& module);  // Session, write_failure_report
+
+}  // namespace antiradiance

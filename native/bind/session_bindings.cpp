@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "base/error.h"
+#include "bind/arrays.h"
+#include "bind/bindings.h"
+#include "pipeline/session.h"
+
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace antiradiance {
+namespace {
+
+// How often `cancelled` is asked. Stages look at the answer every 0.1 s or sooner (Progress).
+constexpr std::chrono::milliseconds kPollInterval{50};
+
+// The two callbacks of a render. An exception in one of them cancels the render and is kept, so
+// that no Python exception travels through the core's threads.
+class Callbacks {
+public:
+    Callbacks(py::object progress, py::object cancelled)
+        : progress_(std::move(progress)), cancelled_(std::move(cancelled)) {}
+
+    void report(Progress& progress, float fraction, const std::string& stage) {
+        if (!progress_.is_none()) {
+            guarded(progress, [&] { progress_(fraction, stage); });
+        }
+    }
+
+    void poll(Progress& progress) {
+        guarded(progress, [&] {
+            if (py::bool_(cancelled_())) {
+                progress.cancel();
+            }
+        });
+    }
+
+    [[nodiscard]] bool polls() const { return !cancelled_.is_none(); }
+
+    void rethrow() const {
+        if (error_) {
+            std::rethrow_exception(error_);
+        }
+    }
+
+private:
+    template <typename Call>
+    void guarded(Progress& progress, const Call& call) {
+        const py::gil_scoped_acquire gil;
+        if (error_) {
+            return;
+        }
+        try {
+            call();
+        } catch (...) {
+            error_ = std::current_exception();
+            progress.cancel();
+        }
+    }
+
+    py::object progress_, cancelled_;
+    std::exception_ptr error_;  // written and read with the GIL held
+};
+
+// Asks `cancelled` from a thread of its own, so that no stage has to come back to Python for it.
+class CancelWatch {
+public:
+    CancelWatch(Callbacks& callbacks, Progress& progress) {
+        if (callbacks.polls()) {
+            thread_ = std::jthread([&](const std::stop_token& stop) {
+                std::mutex mutex;
+                std::condition_variable_any wake;
+                std::unique_lock lock(mutex);
+                while (!stop.stop_requested() && !progress.cancelled()) {
+                    callbacks.poll(progress);
+                    wake.wait_for(lock, stop, kPollInterval, [] { return false; });
+                }
+            });
+        }
+    }
+
+private:
+    std::jthread thread_;
+};
+
+OptionValue to_option_value(const py::handle& value, const OptionInfo* option) {
+    const bool wants_float = option != nullptr && option->type == OptionType::kFloat;
+    if (py::isinstance<py::bool_>(value)) {
+        return value.cast<bool>();
+    }
+    if (py::isinstance<py::int_>(value) && !wants_float) {
+        return value.cast<int>();
+    }
+    if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) {
+        return value.cast<float>();
+    }
+    return value.cast<std::string>();
+}
+
+Options to_options(const py::dict& values) {
+    Options options;
+    for (const auto& [key, value] : values) {
+        const auto name = key.cast<std::string>();
+        const OptionInfo* known = nullptr;
+        for (const OptionInfo& option : option_schema()) {
+            known = option.name == name ? &option : known;
+        }
+        set_option(options, name, to_option_value(value, known));
+    }
+    return options;
+}
+
+template <typename Element>
+py::array_t<float> image(const std::vector<Element>& pixels, const Picture& picture) {
+    constexpr py::ssize_t kChannels = sizeof(Element) / sizeof(float);
+    std::vector<py::ssize_t> shape{picture.height, picture.width};
+    if (kChannels > 1) {
+        shape.push_back(kChannels);
+    }
+    return py::array_t<float>(shape, reinterpret_cast<const float*>(pixels.data()));
+}
+
+py::dict to_dict(const RenderResult& result) {
+    return py::dict("cancelled"_a = false, "combined"_a = image(result.picture.combined, result.picture),
+                    "depth"_a = image(result.picture.depth, result.picture),
+                    "normal"_a = image(result.picture.normal, result.picture),
+                    "report"_a = result.report.to_json(), "warnings"_a = result.report.warnings);
+}
+
+py::dict render(Session& session, const Scene& scene, const py::dict& option_values,
+                py::object progress_callback, py::object cancelled, double sync_seconds,
+                bool film_transparent) {
+    const Options options = to_options(option_values);
+    Callbacks callbacks(std::move(progress_callback), std::move(cancelled));
+    RenderResult result;
+    bool stopped = false;
+    {
+        const py::gil_scoped_release no_gil;
+        Progress* self = nullptr;
+        Progress progress(
+            [&](float fraction, const std::string& stage) {
+                callbacks.report(*self, fraction, stage);
+            },
+            {});
+        self = &progress;
+        const CancelWatch watch(callbacks, progress);
+        try {
+            result = session.render(scene, options, film_transparent, sync_seconds, progress);
+        } catch (const Cancelled&) {
+            stopped = true;
+        }
+    }
+    callbacks.rethrow();
+    return stopped ? py::dict("cancelled"_a = true) : to_dict(result);
+}
+
+}  // namespace
+
+void bind_session(py::module_& module) {
+    py::class_<Session>(module, "Session", "Renders scenes; keeps the solution between renders")
+        .def(py::init<>())
+        .def("render", &render, "scene"_a, "options"_a, "progress"_a = py::none(),
+             "cancelled"_a = py::none(), "sync_seconds"_a = 0.0, "film_transparent"_a = false,
+             "progress(fraction, stage) is called by this thread, cancelled() -> bool by another. "
+             "Returns a dict: cancelled; unless it is true also combined (h,w,4) f32 linear "
+             "Rec.709, premultiplied, row 0 below; depth (h,w) f32, m; normal (h,w,3) f32, world "
+             "space; report, JSON; warnings, list of str. Raises SceneError");
+    module.def("write_failure_report", &write_failure_report, "path"_a, "error"_a, "warnings"_a,
+               "sync_seconds"_a,
+               "Writes the JSON report of a render that failed before the core saw it");
+}
+
+}  // namespace antiradiance
