@@ -12,8 +12,6 @@ bl_info = {
     "location": "Properties > Render > Render Engine > Antiradiance",
     "description": "Radiosity render engine with implicit visibility",
     "category": "Render",
-    "doc_url": "",
-    "support": "COMMUNITY",
 }
 
 if "registry" in locals():  # "Reload Scripts" runs this file again with the old modules in place.

@@ -7,7 +7,7 @@ namespace antiradiance {
 namespace {
 
 std::string describe(const py::dtype& type, const Shape& shape) {
-    std::string text = py::str(type).cast<std::string>() + " (";
+    std::string text = py::str(static_cast<const py::object&>(type)).cast<std::string>() + " (";
     for (std::size_t axis = 0; axis < shape.size(); ++axis) {
         text += axis > 0 ? ", " : "";
         text += shape[axis] == kAny ? "n" : std::to_string(shape[axis]);

@@ -49,7 +49,8 @@ void check_range(const std::int32_t* values, std::size_t size, std::size_t count
 }
 
 int add_texture(Scene& scene, const std::string& name, const py::array& pixels) {
-    const auto* data = borrow<float>(pixels, {kAny, kAny, 4}, "pixels of the texture '" + name + "'");
+    const auto* data =
+        borrow<float>(pixels, {kAny, kAny, 4}, "pixels of the texture '" + name + "'");
     Texture texture;
     texture.name = name;
     texture.height = static_cast<int>(pixels.shape(0));
@@ -94,8 +95,8 @@ int add_mesh_arrays(Scene& scene, const std::string& object_name, const py::arra
     MeshInput mesh;
     mesh.object_name = object_name;
     mesh.to_world = to_matrix(matrix, named("matrix"));
-    mesh.positions = reinterpret_cast<const vec3*>(
-        borrow<float>(positions, {kAny, 3}, named("positions")));
+    mesh.positions =
+        reinterpret_cast<const vec3*>(borrow<float>(positions, {kAny, 3}, named("positions")));
     mesh.position_count = static_cast<std::size_t>(positions.shape(0));
     const auto* corners = borrow<std::int32_t>(triangles, {kAny, 3}, named("triangles"));
     mesh.triangles = reinterpret_cast<const uvec3*>(corners);
@@ -141,9 +142,9 @@ int add_lamp(Scene& scene, const std::string& name, const std::string& type,
     lamp.spot_angle = spot_angle;
     lamp.spot_blend = spot_blend;
     lamp.sun_angle = sun_angle;
-    lamp.shape =
-        by_name<AreaShape>(shape, "shape of the lamp '" + name + "'",
-                           {{"RECTANGLE", AreaShape::kRectangle}, {"ELLIPSE", AreaShape::kEllipse}});
+    lamp.shape = by_name<AreaShape>(
+        shape, "shape of the lamp '" + name + "'",
+        {{"RECTANGLE", AreaShape::kRectangle}, {"ELLIPSE", AreaShape::kEllipse}});
     lamp.size = {size_x, size_y};
     lamp.spread = spread;
     lamp.visible_to_camera = visible_to_camera;

@@ -9,20 +9,28 @@ namespace {
 
 const char* type_name(OptionType type) {
     switch (type) {
-        case OptionType::kEnum: return "ENUM";
-        case OptionType::kInt: return "INT";
-        case OptionType::kFloat: return "FLOAT";
-        case OptionType::kPath: return "PATH";
-        case OptionType::kBool: return "BOOL";
+        case OptionType::kEnum:
+            return "ENUM";
+        case OptionType::kInt:
+            return "INT";
+        case OptionType::kFloat:
+            return "FLOAT";
+        case OptionType::kPath:
+            return "PATH";
+        case OptionType::kBool:
+            return "BOOL";
     }
     throw std::logic_error("option type without a name");
 }
 
 const char* unit_name(OptionUnit unit) {
     switch (unit) {
-        case OptionUnit::kNone: return "NONE";
-        case OptionUnit::kLength: return "LENGTH";
-        case OptionUnit::kFactor: return "FACTOR";
+        case OptionUnit::kNone:
+            return "NONE";
+        case OptionUnit::kLength:
+            return "LENGTH";
+        case OptionUnit::kFactor:
+            return "FACTOR";
     }
     throw std::logic_error("option unit without a name");
 }

@@ -129,7 +129,8 @@ py::array_t<float> image(const std::vector<Element>& pixels, const Picture& pict
 }
 
 py::dict to_dict(const RenderResult& result) {
-    return py::dict("cancelled"_a = false, "combined"_a = image(result.picture.combined, result.picture),
+    return py::dict("cancelled"_a = false,
+                    "combined"_a = image(result.picture.combined, result.picture),
                     "depth"_a = image(result.picture.depth, result.picture),
                     "normal"_a = image(result.picture.normal, result.picture),
                     "report"_a = result.report.to_json(), "warnings"_a = result.report.warnings);
