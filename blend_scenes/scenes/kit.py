@@ -192,7 +192,7 @@ class Shape:
             if face in skip:
                 continue
             points = [matrix @ Vector(p) if matrix else p for p in quads[face]]
-            self.polygon(reversed(points) if inward else points, material)
+            self.polygon(points[::-1] if inward else points, material)
         return self
 
     def prism(self, outline, z0, z1, material, bottom=True, top=True):
@@ -212,6 +212,43 @@ class Shape:
         angles = [2.0 * math.pi * (i + 0.5) / segments for i in range(segments)]
         outline = [(cx + radius * math.cos(a), cy + radius * math.sin(a)) for a in angles]
         return self.prism(outline, z0, z1, material, bottom, top)
+
+    def lathe(self, centre, profile, material, segments=10):
+        """Turns `profile` [(radius, z)...] about the vertical through `centre` (x, y).
+
+        Listed so that the outside lies to the right of the way along it: upwards for an outer wall,
+        downwards for the inside of a cup.  A radius of 0 ends in a point.
+        """
+        cx, cy = centre
+        angles = [2.0 * math.pi * i / segments for i in range(segments + 1)]
+        directions = [(math.cos(a), math.sin(a)) for a in angles]
+        for (r0, z0), (r1, z1) in zip(profile, profile[1:]):
+            for (ca, sa), (cb, sb) in zip(directions, directions[1:]):
+                points = [
+                    (cx + r0 * ca, cy + r0 * sa, z0),
+                    (cx + r0 * cb, cy + r0 * sb, z0),
+                    (cx + r1 * cb, cy + r1 * sb, z1),
+                    (cx + r1 * ca, cy + r1 * sa, z1),
+                ]
+                if r0 == 0.0:
+                    del points[1]
+                elif r1 == 0.0:
+                    del points[2]
+                self.polygon(points, material)
+        return self
+
+    def transformed(self, matrix):
+        """This shape with every corner moved by `matrix`."""
+        self.vertices = [tuple(matrix @ Vector(v)) for v in self.vertices]
+        return self
+
+    def add(self, other):
+        """Takes in the polygons of another shape."""
+        start = len(self.vertices)
+        self.vertices.extend(other.vertices)
+        self.faces.extend(tuple(start + i for i in face) for face in other.faces)
+        self.face_materials.extend(other.face_materials)
+        return self
 
     def sheet(self, axis, position, low, high, material, towards, holes=()):
         """A rectangle across `axis` (0 X, 1 Y, 2 Z) at `position`, its front `towards` +1 or -1.
