@@ -45,6 +45,8 @@ struct PatchTree {
     std::vector<vec3> albedo;               // area average, 0..1
     std::vector<vec3> emission;             // area average radiance, W/(m2 sr)
     std::vector<float> exposed;             // share of the area outside of solids, 0..1
+    std::vector<std::uint16_t> exposed_mask;  // leaves: bit 4 j + i set = stratum (i, j) of the 4 x 4
+                                              // strata of patch_point's samples lies outside
 
     std::vector<NodeId> leaves;             // #leaves, ascending
     std::vector<NodeId> surface_node;       // #surfaces: the node that is the whole surface
@@ -61,6 +63,7 @@ struct PatchTree {
     [[nodiscard]] vec3 surface_point(SurfaceId s, const vec2& uv) const;
     // World corners of a patch node; the surface's corner_count of them are set.
     [[nodiscard]] std::array<vec3, 4> patch_corners(NodeId n) const;
+    [[nodiscard]] int corner_count(NodeId n) const;
     // Point of a patch for a sample of the unit square, uniform by area (up to a quad's shear).
     [[nodiscard]] vec3 patch_point(NodeId n, const vec2& sample) const;
 

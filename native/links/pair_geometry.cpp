@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "links/pair_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "links/form_factor.h"
+
+namespace antiradiance {
+
+namespace {
+
+// Distances in units of the larger radius beyond which a simpler form factor is below 1 % off.
+constexpr float kFarDistance = 8;
+constexpr float kOnePointDistance = 4;
+constexpr float kFourPointsDistance = 1.6F;
+constexpr float kCoplanarTolerance = 1e-4F;  // of the patches' size
+
+}  // namespace
+
+PlaneSide side_of_plane(const GrowingNode& patch, const GrowingNode& plane) {
+    const float height = glm::dot(patch.center - plane.center, plane.normal);
+    if (height > patch.radius) return PlaneSide::kInFront;
+    if (height < -patch.radius) return PlaneSide::kBehind;
+    float low = height;
+    float high = height;
+    for (int i = 0; i < patch.corner_count; ++i) {
+        const float h = glm::dot(patch.corners[static_cast<std::size_t>(i)] - plane.center, plane.normal);
+        low = std::min(low, h);
+        high = std::max(high, h);
+    }
+    const float tolerance = kCoplanarTolerance * (patch.radius + plane.radius);
+    if (high <= tolerance) return PlaneSide::kBehind;
+    return low >= -tolerance ? PlaneSide::kInFront : PlaneSide::kStraddles;
+}
+
+bool may_receive(const GrowingNode& receiver, const GrowingNode& source) {
+    const vec3 d = source.center - receiver.center;
+    if (!receiver.is_cluster()) return glm::dot(d, receiver.normal) + source.radius > 0;
+    const float distance = glm::length(d);
+    const float reach = source.radius + receiver.radius;
+    if (distance <= reach || receiver.cone_cosine <= 0) return true;
+    // The least angle between a normal of the cone and a direction to the source must be below 90
+    // degrees: angle(n, d) - cone - asin(reach / distance) < pi / 2.
+    const float angle = std::acos(std::clamp(glm::dot(receiver.normal, d) / distance, -1.0F, 1.0F));
+    const float cone = std::acos(std::min(1.0F, receiver.cone_cosine));
+    return angle - cone - std::asin(reach / distance) < kPi / 2;
+}
+
+vec3 point_of(const GrowingNode& n, const vec2& u) {
+    if (n.corner_count == 4)
+        return glm::mix(glm::mix(n.corners[0], n.corners[1], u.x), glm::mix(n.corners[3], n.corners[2], u.x), u.y);
+    vec2 t = u;  // square to triangle (Heitz 2019)
+    if (t.y > t.x) {
+        t.x *= 0.5F;
+        t.y -= t.x;
+    } else {
+        t.y *= 0.5F;
+        t.x -= t.y;
+    }
+    return n.corners[0] * (1 - t.x - t.y) + n.corners[1] * t.x + n.corners[2] * t.y;
+}
+
+float patch_form_factor(const GrowingNode& s, const GrowingNode& r, bool behind_source) {
+    const vec3 d = s.center - r.center;
+    const float d2 = glm::dot(d, d);
+    const float larger = std::max(s.radius, r.radius);
+    if (d2 > kFarDistance * kFarDistance * larger * larger)
+        return std::abs(far_form_factor(r.center, r.normal, s.center, s.normal, s.area));
+
+    const std::span<const vec3> polygon(s.corners.data(), static_cast<std::size_t>(s.corner_count));
+    const float sign = behind_source ? -1.0F : 1.0F;
+    int grid = 4;
+    if (d2 > kOnePointDistance * kOnePointDistance * r.radius * r.radius) {
+        grid = 1;
+    } else if (d2 > kFourPointsDistance * kFourPointsDistance * larger * larger) {
+        grid = 2;
+    }
+    if (grid == 1) return std::max(0.0F, sign * point_form_factor(r.center, r.normal, polygon));
+    float sum = 0;
+    for (int j = 0; j < grid; ++j) {
+        for (int i = 0; i < grid; ++i) {
+            const vec2 u = (vec2(i, j) + 0.5F) / static_cast<float>(grid);
+            sum += std::max(0.0F, sign * point_form_factor(point_of(r, u), r.normal, polygon));
+        }
+    }
+    return sum / static_cast<float>(grid * grid);
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Link creation: refines pairs of nodes, splitting patches where needed, until the oracle accepts.
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "hierarchy/growing_tree.h"
+#include "links/direction_bins.h"
+#include "links/link_options.h"
+
+namespace antiradiance {
+
+struct RefineOptions {
+    float link_threshold = 0.02F;  // eps: largest form factor of one link
+    float bin_share = 1;           // k: largest solid angle of an end, in bins
+    float least_edge = 0;          // m: patches whose longest edge is below are not split
+    bool cluster_links = false;    // EXPLICIT only: far clusters link as one
+    float cluster_floor = 0.02F;   // m: clusters with smaller radii are not refined against each other
+    bool antiradiance = true;      // make - links
+    std::size_t most_links = SIZE_MAX;  // stop with a SceneError beyond
+};
+
+// A directed link before it is sorted; see Link.
+struct RawLink {
+    NodeId receiver;
+    NodeId source;
+    float form_factor;  // < 0: a - link
+    std::uint16_t bin;
+};
+
+// Two nodes that see each other's fronts, whose + links are links[first, first + count).
+// One set of rays decides the visibility of all of them.
+struct LinkedPair {
+    NodeId a, b;
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
+struct RefinedLinks {
+    std::vector<RawLink> links;
+    std::vector<LinkedPair> pairs;
+};
+
+// Oracle (algorithm.md "Refinement oracle"): link when both form factors are below eps, both solid
+// angles below k bins, the nodes are apart and neither straddles the other's plane; else split the
+// larger one. Pairs that can't be split any further link all the same; where they touch, the link
+// is spread over the bins that it covers ("Near field").
+// Deterministic: the result does not depend on the number of threads.
+RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins, const RefineOptions& options,
+                          Progress& progress);
+
+}  // namespace antiradiance

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "links/visibility.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace antiradiance {
+
+namespace {
+
+constexpr int kFacingTries = 4;  // to find members of two clusters that face each other
+
+// Share of segments between two nodes that are free; only those between points that face each
+// other count, as the form factor has no part of the others.
+class PairVisibility {
+public:
+    PairVisibility(const PatchTree& tree, const RayScene& rays, int rays_per_pair)
+        : sampler_(tree), rays_(rays), count_(static_cast<std::uint32_t>(rays_per_pair)) {}
+
+    [[nodiscard]] float operator()(NodeId a, NodeId b) const {
+        const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+        std::uint32_t facing = 0;
+        std::uint32_t free = 0;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            for (std::uint32_t attempt = 0; attempt < kFacingTries; ++attempt) {
+                const std::uint32_t index = i + attempt * count_;
+                const auto p = sampler_.sample(a, r2_sample(index, seed));
+                const auto q = sampler_.sample(b, r2_sample(index, seed ^ 0x5bd1e995U));
+                const vec3 d = q.point - p.point;
+                if (glm::dot(d, p.normal) <= 0 || glm::dot(d, q.normal) >= 0) continue;
+                ++facing;
+                const float offset = 2 * rays_.epsilon();
+                if (!rays_.occluded(p.point + p.normal * offset, q.point + q.normal * offset)) ++free;
+                break;
+            }
+        }
+        return facing ? static_cast<float>(free) / static_cast<float>(facing) : 0.0F;
+    }
+
+private:
+    SurfaceSampler sampler_;
+    const RayScene& rays_;
+    std::uint32_t count_;
+};
+
+}  // namespace
+
+SurfaceSampler::SurfaceSampler(const PatchTree& tree) : tree_(tree) {
+    first_leaf_.resize(tree.size() + 1);
+    area_.push_back(0);
+    for (std::size_t n = 0; n < tree.size(); ++n) {
+        first_leaf_[n] = static_cast<std::int32_t>(area_.size() - 1);
+        if (tree.is_leaf(static_cast<NodeId>(n)))
+            area_.push_back(area_.back() + static_cast<double>(tree.area[n]) * tree.exposed[n]);
+    }
+    first_leaf_[tree.size()] = static_cast<std::int32_t>(area_.size() - 1);
+}
+
+SurfaceSampler::Sample SurfaceSampler::sample(NodeId node, const vec2& u) const {
+    const auto n = static_cast<std::size_t>(node);
+    if (!tree_.is_cluster(node) && tree_.exposed[n] >= 1) return {tree_.patch_point(node, u), tree_.normal[n]};
+    const auto begin = static_cast<std::size_t>(first_leaf_[n]);
+    const auto end =
+        static_cast<std::size_t>(first_leaf_[static_cast<std::size_t>(tree_.subtree_end[n])]);
+    const double at = area_[begin] + (area_[end] - area_[begin]) * static_cast<double>(u.x);
+    const auto upper = std::upper_bound(area_.begin() + static_cast<std::ptrdiff_t>(begin + 1),
+                                        area_.begin() + static_cast<std::ptrdiff_t>(end), at);
+    const auto k = static_cast<std::size_t>(upper - area_.begin()) - 1;
+    const NodeId leaf = tree_.leaves[k];
+    const double width = area_[k + 1] - area_[k];
+    const float rest = width > 0 ? static_cast<float>((at - area_[k]) / width) : 0.5F;
+    return {exposed_point(leaf, {std::clamp(rest, 0.0F, 0x1.fffffep-1F), u.y}),
+            tree_.normal[static_cast<std::size_t>(leaf)]};
+}
+
+vec3 SurfaceSampler::exposed_point(NodeId leaf, const vec2& u) const {
+    const std::uint16_t mask = tree_.exposed_mask[static_cast<std::size_t>(leaf)];
+    const int exposed = std::popcount(mask);
+    if (exposed == 16 || exposed == 0) return tree_.patch_point(leaf, u);
+    // u.x picks one of the exposed strata, what is left of it the place inside.
+    const float scaled = u.x * static_cast<float>(exposed);
+    int skip = std::min(static_cast<int>(scaled), exposed - 1);
+    int stratum = 0;
+    for (; stratum < 16; ++stratum) {
+        if ((mask >> static_cast<unsigned>(stratum) & 1U) && skip-- == 0) break;
+    }
+    const vec2 cell(static_cast<float>(stratum % 4), static_cast<float>(stratum / 4));
+    const vec2 inside(scaled - std::floor(scaled), u.y);
+    return tree_.patch_point(leaf, (cell + inside) * 0.25F);
+}
+
+void apply_ray_visibility(const PatchTree& tree, const RayScene& rays, int rays_per_pair,
+                          std::span<const LinkedPair> pairs, std::span<RawLink> links,
+                          Progress& progress) {
+    const PairVisibility visibility(tree, rays, rays_per_pair);
+    parallel_for_blocks(pairs.size(), 1024, progress, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const LinkedPair& p = pairs[i];
+            const float v = visibility(p.a, p.b);
+            for (RawLink& l : links.subspan(p.first, p.count)) l.form_factor *= v;
+        }
+        progress.check();
+    });
+}
+
+}  // namespace antiradiance
