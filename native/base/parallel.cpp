@@ -67,7 +67,8 @@ void parallel_for(std::size_t count, Progress& progress,
         }
     }
     loop.join();
-    // The callback's own error is the cause when both are set: the bodies only saw the cancellation.
+    // The callback's own error is the cause when both are set: the bodies only saw the
+    // cancellation.
     if (callback_error) std::rethrow_exception(callback_error);
     if (loop_error) std::rethrow_exception(loop_error);
 }
@@ -77,8 +78,8 @@ void parallel_for_blocks(std::size_t count, std::size_t block, Progress& progres
                          ProgressSpan span) {
     const std::size_t blocks = (count + block - 1) / block;
     parallel_for(
-        blocks, progress,
-        [&](std::size_t i) { body(i * block, std::min(count, (i + 1) * block)); }, span);
+        blocks, progress, [&](std::size_t i) { body(i * block, std::min(count, (i + 1) * block)); },
+        span);
 }
 
 }  // namespace antiradiance

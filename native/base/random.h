@@ -30,7 +30,8 @@ inline float to_unit_float(std::uint32_t bits) {
 }
 
 // Point `index` of the R2 low-discrepancy sequence (M. Roberts, "The Unreasonable Effectiveness of
-// Quasirandom Sequences", 2018), shifted by a random offset that `seed` selects (Cranley-Patterson).
+// Quasirandom Sequences", 2018), shifted by a random offset that `seed` selects
+// (Cranley-Patterson).
 inline vec2 r2_sample(std::uint32_t index, std::uint32_t seed) {
     const std::uint32_t a = hash_u32(seed);
     const std::uint32_t b = hash_u32(a ^ 0x68bc21ebU);

@@ -13,9 +13,9 @@ namespace antiradiance {
 
 namespace {
 
-constexpr int kStrata = 4;          // along each side of a patch
-constexpr int kRays = 4;            // per point that looks buried
-constexpr int kBuriedHits = 3;      // of kRays on unlit sides
+constexpr int kStrata = 4;               // along each side of a patch
+constexpr int kRays = 4;                 // per point that looks buried
+constexpr int kBuriedHits = 3;           // of kRays on unlit sides
 constexpr float kWorthAWarning = 0.02F;  // of an object's area
 
 class BurialTest {
@@ -33,7 +33,8 @@ public:
 private:
     [[nodiscard]] bool is_buried(NodeId leaf, std::uint32_t stratum) const {
         const auto n = static_cast<std::size_t>(leaf);
-        const vec2 cell(static_cast<float>(stratum % kStrata), static_cast<float>(stratum / kStrata));
+        const vec2 cell(static_cast<float>(stratum % kStrata),
+                        static_cast<float>(stratum / kStrata));
         const vec3 normal = tree_.normal[n];
         const vec3 point = tree_.patch_point(leaf, (cell + 0.5F) / static_cast<float>(kStrata)) +
                            normal * (4 * rays_.epsilon());
@@ -77,9 +78,10 @@ std::vector<std::string> burial_warnings(const Scene& scene, const PatchTree& tr
     for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) {
         list += (i ? ", '" : "'") + names[i] + "'";
     }
-    if (names.size() > kMostNames) list += " and " + std::to_string(names.size() - kMostNames) + " more";
-    return {"Parts of these objects lie inside of other solids and take no part in the light: " + list +
-            ". Cut the surfaces where the objects meet for the best result"};
+    if (names.size() > kMostNames)
+        list += " and " + std::to_string(names.size() - kMostNames) + " more";
+    return {"Parts of these objects lie inside of other solids and take no part in the light: " +
+            list + ". Cut the surfaces where the objects meet for the best result"};
 }
 
 }  // namespace
@@ -93,7 +95,8 @@ std::vector<std::string> find_buried_patches(const Scene& scene, const RayScene&
             if (tree.emits_only(leaf)) continue;
             const std::uint16_t mask = test.exposed_mask(leaf);
             tree.exposed_mask[static_cast<std::size_t>(leaf)] = mask;
-            tree.exposed[static_cast<std::size_t>(leaf)] = static_cast<float>(std::popcount(mask)) / 16;
+            tree.exposed[static_cast<std::size_t>(leaf)] =
+                static_cast<float>(std::popcount(mask)) / 16;
         }
     });
     pull_area_average<float>(tree, tree.exposed);

@@ -4,7 +4,7 @@
 
 #include "hierarchy/growing_tree.h"
 #include "hierarchy/push_pull.h"
-#include "scene/lamp_units.h"
+#include "scene/lamp.h"
 
 namespace antiradiance {
 
@@ -82,6 +82,7 @@ PatchTree GrowingTree::finish(const Scene& scene, std::vector<NodeId>& renumbere
     tree.normal.resize(count);
     tree.area.resize(count);
     tree.radius.resize(count);
+    tree.cone_cosine.resize(count);
     tree.albedo.assign(count, vec3(0));
     tree.emission.assign(count, vec3(0));
     tree.exposed.assign(count, 1);
@@ -101,7 +102,8 @@ PatchTree GrowingTree::finish(const Scene& scene, std::vector<NodeId>& renumbere
         const auto i = static_cast<std::size_t>(id);
         renumbered[static_cast<std::size_t>(old)] = id;
         tree.parent[i] = n.parent == kNone ? kNone : renumbered[static_cast<std::size_t>(n.parent)];
-        tree.depth[i] = n.parent == kNone ? 0 : tree.depth[static_cast<std::size_t>(tree.parent[i])] + 1;
+        tree.depth[i] =
+            n.parent == kNone ? 0 : tree.depth[static_cast<std::size_t>(tree.parent[i])] + 1;
         tree.subtree_end[i] = id + 1;
         tree.surface[i] = n.surface;
         tree.region[i] = n.region;
@@ -109,12 +111,14 @@ PatchTree GrowingTree::finish(const Scene& scene, std::vector<NodeId>& renumbere
         tree.normal[i] = n.normal;
         tree.area[i] = n.area;
         tree.radius[i] = n.radius;
+        tree.cone_cosine[i] = n.cone_cosine;
         if (n.surface != kNone) {
             NodeId& whole = tree.surface_node[static_cast<std::size_t>(n.surface)];
             if (whole == kNone) whole = id;
         }
         if (n.is_leaf()) tree.leaves.push_back(id);
-        for (std::int32_t c = n.child_count; c-- > 0;) stack.push_back(n.first_child + c);
+        for (std::int32_t c = n.child_count; c-- > 0;)
+            stack.push_back(n.first_child + c);
     }
     for (std::size_t i = count; i-- > 1;) {
         NodeId& end = tree.subtree_end[static_cast<std::size_t>(tree.parent[i])];
@@ -127,7 +131,8 @@ PatchTree GrowingTree::finish(const Scene& scene, std::vector<NodeId>& renumbere
                     static_cast<SurfaceId>(s);
         }
     }
-    for (const NodeId leaf : tree.leaves) set_material(scene, tree, leaf);
+    for (const NodeId leaf : tree.leaves)
+        set_material(scene, tree, leaf);
     pull_area_average<vec3>(tree, tree.albedo);
     pull_area_average<vec3>(tree, tree.emission);
     return tree;

@@ -15,7 +15,9 @@ namespace {
 // of the cluster's size: surfaces that face different ways part before far ones do.
 constexpr float kNormalWeight = 0.35F;
 
-vec2 mid(const vec2& a, const vec2& b) { return 0.5F * (a + b); }
+vec2 mid(const vec2& a, const vec2& b) {
+    return 0.5F * (a + b);
+}
 
 float edge_length(const GrowingNode& n, int i) {
     const auto a = static_cast<std::size_t>(i);
@@ -73,7 +75,8 @@ vec3 point_on(const Surface& s, const vec2& uv) {
 
 vec3 surface_center(const Surface& s) {
     vec3 sum(0);
-    for (int i = 0; i < s.corner_count; ++i) sum += s.corners[static_cast<std::size_t>(i)];
+    for (int i = 0; i < s.corner_count; ++i)
+        sum += s.corners[static_cast<std::size_t>(i)];
     return sum / static_cast<float>(s.corner_count);
 }
 
@@ -134,10 +137,11 @@ void GrowingTree::build_cluster(NodeId cluster, std::vector<SurfaceId>& members,
     n.cone_cosine = n.normal == vec3(0) ? -1.0F : 1.0F;
     for (std::size_t i = begin; i < end; ++i) {
         const Surface& s = surfaces_[static_cast<std::size_t>(members[i])];
-        n.cone_cosine = std::min(n.cone_cosine,
-                                 glm::dot(n.normal, glm::normalize(surface_area_vector(s))));
+        n.cone_cosine =
+            std::min(n.cone_cosine, glm::dot(n.normal, glm::normalize(surface_area_vector(s))));
         for (int k = 0; k < s.corner_count; ++k)
-            n.radius = std::max(n.radius, glm::distance(n.center, s.corners[static_cast<std::size_t>(k)]));
+            n.radius =
+                std::max(n.radius, glm::distance(n.center, s.corners[static_cast<std::size_t>(k)]));
     }
 
     if (end - begin == 1) {
@@ -171,8 +175,8 @@ void GrowingTree::build_cluster(NodeId cluster, std::vector<SurfaceId>& members,
     const auto axis_key = [&](SurfaceId s) {
         return cluster_key(surfaces_[static_cast<std::size_t>(s)], normal_scale).k[axis];
     };
-    auto middle = std::stable_partition(first, last,
-                                        [&](SurfaceId s) { return axis_key(s) < border; });
+    auto middle =
+        std::stable_partition(first, last, [&](SurfaceId s) { return axis_key(s) < border; });
     if (middle == first || middle == last) middle = first + (last - first) / 2;
 
     const auto child = static_cast<NodeId>(nodes_.size());
@@ -210,12 +214,14 @@ void GrowingTree::set_patch_geometry(GrowingNode& n) const {
     }
     n.center = sum / static_cast<float>(n.corner_count);
     for (int i = 0; i < n.corner_count; ++i) {
-        n.radius = std::max(n.radius, glm::distance(n.center, n.corners[static_cast<std::size_t>(i)]));
+        n.radius =
+            std::max(n.radius, glm::distance(n.center, n.corners[static_cast<std::size_t>(i)]));
         n.longest_edge = std::max(n.longest_edge, edge_length(n, i));
     }
-    const vec3 area_vector = n.corner_count == 4
-                                 ? 0.5F * glm::cross(n.corners[2] - n.corners[0], n.corners[3] - n.corners[1])
-                                 : 0.5F * glm::cross(n.corners[1] - n.corners[0], n.corners[2] - n.corners[0]);
+    const vec3 area_vector =
+        n.corner_count == 4
+            ? 0.5F * glm::cross(n.corners[2] - n.corners[0], n.corners[3] - n.corners[1])
+            : 0.5F * glm::cross(n.corners[1] - n.corners[0], n.corners[2] - n.corners[0]);
     n.area = glm::length(area_vector);
 }
 
@@ -251,9 +257,10 @@ GrowingTree::Estimate GrowingTree::estimate_patches(std::span<const Surface> sur
     for (const Surface& s : surfaces) {
         double longest = 0;
         for (int i = 0; i < s.corner_count; ++i) {
-            longest = std::max(longest, static_cast<double>(glm::distance(
-                                            s.corners[static_cast<std::size_t>(i)],
-                                            s.corners[static_cast<std::size_t>((i + 1) % s.corner_count)])));
+            longest = std::max(longest,
+                               static_cast<double>(glm::distance(
+                                   s.corners[static_cast<std::size_t>(i)],
+                                   s.corners[static_cast<std::size_t>((i + 1) % s.corner_count)])));
         }
         // Halvings until the longest edge fits; elongated shapes need fewer leaves than a square's.
         const double halvings = std::max(0.0, std::ceil(std::log2(longest / max_edge)));

@@ -12,19 +12,19 @@ namespace antiradiance {
 
 struct GrowingNode {
     vec3 center{0};
-    float radius = 0;            // m, bounding sphere about the centre
-    vec3 normal{0};              // unit; clusters: mean normal
-    float area = 0;              // m2
-    std::array<vec3, 4> corners; // patches: corner_count of them
+    float radius = 0;               // m, bounding sphere about the centre
+    vec3 normal{0};                 // unit; clusters: mean normal
+    float area = 0;                 // m2
+    std::array<vec3, 4> corners;    // patches: corner_count of them
     std::int32_t corner_count = 0;  // 0: a cluster
     SurfaceId surface = kNone;
     NodeId parent = kNone;
     NodeId first_child = kNone;  // children are consecutive
     std::int32_t child_count = 0;
-    float longest_edge = 0;      // m, patches
-    float cone_cosine = 1;       // clusters: all normals lie within this angle's cosine of `normal`
-    bool emits_only = false;     // an area lamp
-    PatchRegion region;          // patches
+    float longest_edge = 0;   // m, patches
+    float cone_cosine = 1;    // clusters: all normals lie within this angle's cosine of `normal`
+    bool emits_only = false;  // an area lamp
+    PatchRegion region;       // patches
 
     [[nodiscard]] bool is_cluster() const { return corner_count == 0; }
     [[nodiscard]] bool is_leaf() const { return child_count == 0; }
@@ -35,7 +35,9 @@ public:
     // One root cluster above all surfaces (at least one). Clusters halve on position and normal.
     explicit GrowingTree(std::vector<Surface> surfaces);
 
-    [[nodiscard]] const GrowingNode& node(NodeId n) const { return nodes_[static_cast<std::size_t>(n)]; }
+    [[nodiscard]] const GrowingNode& node(NodeId n) const {
+        return nodes_[static_cast<std::size_t>(n)];
+    }
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }
     [[nodiscard]] const std::vector<Surface>& surfaces() const { return surfaces_; }
     static constexpr NodeId kRoot = 0;
@@ -53,7 +55,8 @@ public:
         std::int32_t largest_object = kNone;  // into Scene::objects
         double largest_object_patches = 0;
     };
-    [[nodiscard]] static Estimate estimate_patches(std::span<const Surface> surfaces, float max_edge);
+    [[nodiscard]] static Estimate estimate_patches(std::span<const Surface> surfaces,
+                                                   float max_edge);
 
     // The tree in preorder; creation number -> NodeId of the result is written to `renumbered`.
     // Radiometric arrays are filled from the scene: area averages of albedo and emission.

@@ -32,7 +32,8 @@ public:
         : scene_(scene), rays_(rays), polygons_(polygons), polygon_of_(scene.triangles.size()) {
         for (std::size_t p = 0; p < polygons.size(); ++p) {
             for (const TriangleId t : polygons[p].triangles) {
-                if (t != kNone) polygon_of_[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(p);
+                if (t != kNone)
+                    polygon_of_[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(p);
             }
             total_area_ += glm::length(polygons[p].area_vector());
         }
@@ -69,7 +70,8 @@ public:
         for (int i = 0; i < count; ++i) {
             const auto index = static_cast<std::uint32_t>(i);
             const vec3 direction = frame.to_world(cosine_hemisphere(r2_sample(index, 2 * seed)));
-            const RayHit hit = rays_.intersect(point(side, r2_sample(index, 2 * seed + 1)), direction);
+            const RayHit hit =
+                rays_.intersect(point(side, r2_sample(index, 2 * seed + 1)), direction);
             if (!hit.hit()) continue;
             out.push_back({side, side_of(hit)});
             out.push_back({side_of(hit), side});
@@ -78,8 +80,9 @@ public:
 
     [[nodiscard]] bool emits(Side side) const {
         const TriangleId t = polygon(side).triangles[0];
-        return scene_.materials[static_cast<std::size_t>(
-                                    scene_.triangle_material[static_cast<std::size_t>(t)])]
+        return scene_
+            .materials[static_cast<std::size_t>(
+                scene_.triangle_material[static_cast<std::size_t>(t)])]
             .emits();
     }
 
@@ -107,13 +110,12 @@ public:
                 origin += x * (s.x * lamp.size.x) + y * (s.y * lamp.size.y);
                 direction = frame.to_world(cosine_hemisphere(u));
             } else {
-                const float z =
-                    lamp.type == LampType::kSpot
-                        ? 1 - u.x * (1 - std::cos(std::min(lamp.spot_angle, kPi) / 2))
-                        : 1 - 2 * u.x;
+                const float z = lamp.type == LampType::kSpot
+                                    ? 1 - u.x * (1 - std::cos(std::min(lamp.spot_angle, kPi) / 2))
+                                    : 1 - 2 * u.x;
                 const float r = std::sqrt(std::max(0.0F, 1 - z * z));
-                direction = frame.to_world(
-                    {r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z});
+                direction =
+                    frame.to_world({r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z});
             }
             const RayHit hit = rays_.intersect(origin, direction);
             if (hit.hit()) out.push_back(side_of(hit));
@@ -143,7 +145,8 @@ std::vector<char> spread(std::size_t side_count, const std::vector<Connection>& 
         lit[static_cast<std::size_t>(side)] = 1;
         work.push_back(side);
     };
-    for (const Side s : seeds) light(s);
+    for (const Side s : seeds)
+        light(s);
     while (!work.empty()) {
         const Side from = work.back();
         work.pop_back();
@@ -195,7 +198,8 @@ std::vector<std::array<bool, 2>> find_lit_sides(const Scene& scene, const RaySce
 
     const std::vector<char> lit = spread(side_count, connections, seeds);
     std::vector<std::array<bool, 2>> result(polygons.size());
-    for (std::size_t p = 0; p < polygons.size(); ++p) result[p] = {lit[2 * p] != 0, lit[2 * p + 1] != 0};
+    for (std::size_t p = 0; p < polygons.size(); ++p)
+        result[p] = {lit[2 * p] != 0, lit[2 * p + 1] != 0};
     return result;
 }
 

@@ -8,7 +8,9 @@ namespace antiradiance {
 
 namespace {
 
-float cross2(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
+float cross2(const vec2& a, const vec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 // (u, v) of a point in a convex planar quad, by Newton's method on the bilinear map.
 vec2 inverse_bilinear(const Surface& s, const vec3& point) {
@@ -118,13 +120,14 @@ NodeId PatchTree::lookup(TriangleId triangle, bool back_side, const vec3& point)
     const Surface& s = surfaces[static_cast<std::size_t>(id)];
     NodeId n = surface_node[static_cast<std::size_t>(id)];
     if (is_leaf(n)) return n;
-    const vec2 uv = s.corner_count == 4 ? inverse_bilinear(s, point) : inverse_barycentric(s, point);
+    const vec2 uv =
+        s.corner_count == 4 ? inverse_bilinear(s, point) : inverse_barycentric(s, point);
     while (!is_leaf(n)) {
         const NodeId end = subtree_end[static_cast<std::size_t>(n)];
         NodeId best = n + 1;
         float best_inside = inside(region[static_cast<std::size_t>(best)], s.corner_count, uv);
-        for (NodeId child = subtree_end[static_cast<std::size_t>(best)]; child < end && best_inside < 0;
-             child = subtree_end[static_cast<std::size_t>(child)]) {
+        for (NodeId child = subtree_end[static_cast<std::size_t>(best)];
+             child < end && best_inside < 0; child = subtree_end[static_cast<std::size_t>(child)]) {
             const float now = inside(region[static_cast<std::size_t>(child)], s.corner_count, uv);
             if (now > best_inside) {
                 best = child;

@@ -33,30 +33,36 @@ struct PatchTree {
     std::vector<Surface> surfaces;
 
     // Nodes, in preorder: a subtree is the range [node, subtree_end[node]).    // #nodes each
-    std::vector<NodeId> parent;             // kNone: root
+    std::vector<NodeId> parent;  // kNone: root
     std::vector<NodeId> subtree_end;
-    std::vector<std::int32_t> depth;        // root = 0
-    std::vector<SurfaceId> surface;         // kNone: a cluster
-    std::vector<PatchRegion> region;        // of patches
-    std::vector<vec3> center;               // m
-    std::vector<vec3> normal;               // unit; clusters: area-weighted mean, may be 0
-    std::vector<float> area;                // m2
-    std::vector<float> radius;              // m, of the bounding sphere about the centre
-    std::vector<vec3> albedo;               // area average, 0..1
-    std::vector<vec3> emission;             // area average radiance, W/(m2 sr)
-    std::vector<float> exposed;             // share of the area outside of solids, 0..1
-    std::vector<std::uint16_t> exposed_mask;  // leaves: bit 4 j + i set = stratum (i, j) of the 4 x 4
-                                              // strata of patch_point's samples lies outside
+    std::vector<std::int32_t> depth;  // root = 0
+    std::vector<SurfaceId> surface;   // kNone: a cluster
+    std::vector<PatchRegion> region;  // of patches
+    std::vector<vec3> center;         // m
+    std::vector<vec3> normal;         // unit; clusters: area-weighted mean, may be 0
+    std::vector<float> area;          // m2
+    std::vector<float> radius;        // m, of the bounding sphere about the centre
+    std::vector<float> cone_cosine;   // all normals below lie within this cosine of `normal`
+    std::vector<vec3> albedo;         // area average, 0..1
+    std::vector<vec3> emission;       // area average radiance, W/(m2 sr)
+    std::vector<float> exposed;       // share of the area outside of solids, 0..1
+    std::vector<std::uint16_t> exposed_mask;  // leaves: bit 4 j + i set = stratum (i, j) of the 4 x
+                                              // 4 strata of patch_point's samples lies outside
 
-    std::vector<NodeId> leaves;             // #leaves, ascending
-    std::vector<NodeId> surface_node;       // #surfaces: the node that is the whole surface
+    std::vector<NodeId> leaves;        // #leaves, ascending
+    std::vector<NodeId> surface_node;  // #surfaces: the node that is the whole surface
 
     // Lookup: both sides of every triangle.
-    std::vector<std::array<SurfaceId, 2>> triangle_surface;  // #triangles: front, back; kNone: unlit
+    std::vector<std::array<SurfaceId, 2>>
+        triangle_surface;  // #triangles: front, back; kNone: unlit
 
     [[nodiscard]] std::size_t size() const { return parent.size(); }
-    [[nodiscard]] bool is_cluster(NodeId n) const { return surface[static_cast<std::size_t>(n)] == kNone; }
-    [[nodiscard]] bool is_leaf(NodeId n) const { return subtree_end[static_cast<std::size_t>(n)] == n + 1; }
+    [[nodiscard]] bool is_cluster(NodeId n) const {
+        return surface[static_cast<std::size_t>(n)] == kNone;
+    }
+    [[nodiscard]] bool is_leaf(NodeId n) const {
+        return subtree_end[static_cast<std::size_t>(n)] == n + 1;
+    }
     [[nodiscard]] bool emits_only(NodeId n) const;
 
     // World position of (u, v) of a surface: bilinear (quads) or barycentric (triangles).

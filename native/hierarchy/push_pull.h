@@ -33,7 +33,8 @@ void pull_area_average(const PatchTree& tree, std::span<T> values) {
 // Adds every node's value to all leaves below it and clears the inner ones (the "push" half).
 template <typename T>
 void push_sum(const PatchTree& tree, std::span<T> values) {
-    for (std::size_t n = 1; n < tree.size(); ++n) values[n] += values[static_cast<std::size_t>(tree.parent[n])];
+    for (std::size_t n = 1; n < tree.size(); ++n)
+        values[n] += values[static_cast<std::size_t>(tree.parent[n])];
     for (std::size_t n = 0; n < tree.size(); ++n) {
         if (!tree.is_leaf(static_cast<NodeId>(n))) values[n] = T(0);
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/lamp.h"
+
 namespace antiradiance {
 
 namespace {
@@ -136,9 +138,8 @@ std::vector<Polygon> make_polygons(const Scene& scene) {
         const auto c = scene.corners(t);
         polygons.push_back({{c[0], c[1], c[2], c[2]}, {t, kNone}, 3});
     }
-    std::sort(polygons.begin(), polygons.end(), [](const Polygon& a, const Polygon& b) {
-        return a.triangles[0] < b.triangles[0];
-    });
+    std::sort(polygons.begin(), polygons.end(),
+              [](const Polygon& a, const Polygon& b) { return a.triangles[0] < b.triangles[0]; });
     return polygons;
 }
 
@@ -156,16 +157,12 @@ Surface make_surface(const Scene& scene, const Polygon& polygon, bool back_side)
 }
 
 Surface make_lamp_surface(const Lamp& lamp, std::int32_t lamp_index) {
-    // An ellipse has pi/4 of its rectangle's area.
+    // An ellipse has pi/4 of the area of the rectangle around it.
     const float shrink = lamp.shape == AreaShape::kEllipse ? std::sqrt(kPi) / 2 : 1.0F;
-    const vec3 x = vec3(lamp.to_world[0]) * (0.5F * shrink * lamp.size.x);
-    const vec3 y = vec3(lamp.to_world[1]) * (0.5F * shrink * lamp.size.y);
-    const vec3 center(lamp.to_world[3]);
+    const vec3 center = lamp_position(lamp);
     Surface s;
-    s.corners = {center - x - y, center - x + y, center + x + y, center + x - y};
-    const vec3 normal = glm::cross(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0]);
-    // A lamp shines along local -z; a mirroring matrix turns the winding round.
-    if (glm::dot(normal, vec3(lamp.to_world[2])) > 0) std::swap(s.corners[1], s.corners[3]);
+    s.corners = area_lamp_corners(lamp);
+    for (vec3& corner : s.corners) corner = center + (corner - center) * shrink;
     s.corner_count = 4;
     s.lamp = lamp_index;
     return s;

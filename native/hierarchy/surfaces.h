@@ -17,9 +17,9 @@ struct Polygon {
 };
 
 // Every triangle of the scene, once. Two triangles of one object and material that share an edge,
-// lie in one plane (within 1 degree) and form a convex quad become one polygon: first those cut from
-// the same mesh polygon, then any, longest shared edge first, so that a triangulated quad mesh is a
-// quad mesh again.
+// lie in one plane (within 1 degree) and form a convex quad become one polygon: first those cut
+// from the same mesh polygon, then any, longest shared edge first, so that a triangulated quad mesh
+// is a quad mesh again.
 std::vector<Polygon> make_polygons(const Scene& scene);
 
 // The side of a polygon as a surface of the hierarchy.

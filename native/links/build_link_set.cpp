@@ -48,7 +48,8 @@ struct BinLink {
     Link link;
 };
 
-// One bin's links in their final order, with segments whose begin and end count from the bin's start.
+// One bin's links in their final order, with segments whose begin and end count from the bin's
+// start.
 struct SortedBin {
     std::vector<Link> links;
     std::vector<Segment> segments;
@@ -57,7 +58,8 @@ struct SortedBin {
 SortedBin sort_bin(const PatchTree& tree, const vec3& axis, std::span<const BinLink> links) {
     // Links of each receiver next to each other, by counting.
     std::vector<std::uint32_t> count(tree.size(), 0);
-    for (const BinLink& l : links) ++count[static_cast<std::size_t>(l.receiver)];
+    for (const BinLink& l : links)
+        ++count[static_cast<std::size_t>(l.receiver)];
     struct Row {
         float along;
         NodeId receiver;
@@ -80,11 +82,13 @@ SortedBin sort_bin(const PatchTree& tree, const vec3& axis, std::span<const BinL
         sorted.segments.push_back({row.receiver, begin, begin + count[r], 0});
         begin += count[r];
     }
-    for (const BinLink& l : links) sorted.links[fill[static_cast<std::size_t>(l.receiver)]++] = l.link;
+    for (const BinLink& l : links)
+        sorted.links[fill[static_cast<std::size_t>(l.receiver)]++] = l.link;
     for (const Segment& s : sorted.segments) {
         std::sort(sorted.links.begin() + s.begin, sorted.links.begin() + s.end,
                   [](const Link& a, const Link& b) {
-                      return a.source != b.source ? a.source < b.source : a.form_factor < b.form_factor;
+                      return a.source != b.source ? a.source < b.source
+                                                  : a.form_factor < b.form_factor;
                   });
     }
     return sorted;
@@ -97,14 +101,15 @@ std::size_t LinkSet::bytes() const {
            bin_segments.size() * sizeof(std::uint32_t);
 }
 
-LinkSet build_link_set(const PatchTree& tree, const DirectionBins& bins, std::span<const RawLink> raw,
-                       Progress& progress) {
+LinkSet build_link_set(const PatchTree& tree, const DirectionBins& bins,
+                       std::span<const RawLink> raw, Progress& progress) {
     const auto bin_count = static_cast<std::size_t>(bins.count());
     std::vector<std::uint32_t> bin_begin(bin_count + 1, 0);
     for (const RawLink& l : raw) {
         if (l.form_factor != 0) ++bin_begin[l.bin + 1UL];
     }
-    for (std::size_t b = 0; b < bin_count; ++b) bin_begin[b + 1] += bin_begin[b];
+    for (std::size_t b = 0; b < bin_count; ++b)
+        bin_begin[b + 1] += bin_begin[b];
     std::vector<BinLink> by_bin(bin_begin.back());
     {
         std::vector<std::uint32_t> fill(bin_begin.begin(), bin_begin.end() - 1);
@@ -120,7 +125,8 @@ LinkSet build_link_set(const PatchTree& tree, const DirectionBins& bins, std::sp
     set.links.resize(by_bin.size());
     std::vector<std::vector<Segment>> segments(bin_count);
     parallel_for(bin_count, progress, [&](std::size_t b) {
-        const std::span<const BinLink> links(by_bin.data() + bin_begin[b], bin_begin[b + 1] - bin_begin[b]);
+        const std::span<const BinLink> links(by_bin.data() + bin_begin[b],
+                                             bin_begin[b + 1] - bin_begin[b]);
         if (links.empty()) return;
         SortedBin sorted = sort_bin(tree, bins.axis(static_cast<int>(b)), links);
         std::copy(sorted.links.begin(), sorted.links.end(), set.links.begin() + bin_begin[b]);
@@ -138,7 +144,8 @@ LinkSet build_link_set(const PatchTree& tree, const DirectionBins& bins, std::sp
         set.segments.insert(set.segments.end(), of_bin.begin(), of_bin.end());
         set.bin_segments.push_back(static_cast<std::uint32_t>(set.segments.size()));
     }
-    for (const Link& l : set.links) ++(l.form_factor > 0 ? set.radiance_count : set.antiradiance_count);
+    for (const Link& l : set.links)
+        ++(l.form_factor > 0 ? set.radiance_count : set.antiradiance_count);
     return set;
 }
 

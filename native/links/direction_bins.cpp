@@ -31,7 +31,8 @@ CubeCoordinate cube_coordinate(const vec3& d) {
     const vec3 a = glm::abs(d);
     const int axis = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
     const float inverse = 1 / a[axis];
-    return {2 * axis + (d[axis] < 0 ? 1 : 0), d[(axis + 1) % 3] * inverse, d[(axis + 2) % 3] * inverse};
+    return {2 * axis + (d[axis] < 0 ? 1 : 0), d[(axis + 1) % 3] * inverse,
+            d[(axis + 2) % 3] * inverse};
 }
 
 // Rotates away from the axes of the world, to which the walls of most scenes are parallel.
@@ -46,7 +47,8 @@ vec3 tilt(const vec3& d) {
 
 DirectionBins::DirectionBins(int count) {
     if (count < 32 || count > 1024)
-        throw SceneError("direction_bins must lie between 32 and 1024, not " + std::to_string(count));
+        throw SceneError("direction_bins must lie between 32 and 1024, not " +
+                         std::to_string(count));
 
     const float golden_angle = kPi * (3 - std::sqrt(5.0F));
     for (int i = 0; i < count; ++i) {
@@ -76,8 +78,8 @@ DirectionBins::DirectionBins(int count) {
     for (int face = 0; face < 6; ++face) {
         for (int y = 0; y < kFaceSize; ++y) {
             for (int x = 0; x < kFaceSize; ++x) {
-                table_.push_back(static_cast<std::uint16_t>(nearest(cube_direction(
-                    face, texel_center(x, kFaceSize), texel_center(y, kFaceSize)))));
+                table_.push_back(static_cast<std::uint16_t>(nearest(
+                    cube_direction(face, texel_center(x, kFaceSize), texel_center(y, kFaceSize)))));
             }
         }
     }
@@ -108,7 +110,8 @@ int DirectionBins::bin(const vec3& direction) const {
     const auto texel = [](float t) {
         return std::clamp(static_cast<int>((t + 1) * (0.5F * kFaceSize)), 0, kFaceSize - 1);
     };
-    return table_[static_cast<std::size_t>((c.face * kFaceSize + texel(c.y)) * kFaceSize + texel(c.x))];
+    return table_[static_cast<std::size_t>((c.face * kFaceSize + texel(c.y)) * kFaceSize +
+                                           texel(c.x))];
 }
 
 std::vector<float> DirectionBins::projected_solid_angles(const vec3& normal) const {
@@ -117,7 +120,8 @@ std::vector<float> DirectionBins::projected_solid_angles(const vec3& normal) con
         float projected = 0;
         float whole = 0;
         for (std::uint32_t i = bin_texels_[b]; i < bin_texels_[b + 1]; ++i) {
-            projected += std::max(0.0F, -glm::dot(texels_[i].direction, normal)) * texels_[i].solid_angle;
+            projected +=
+                std::max(0.0F, -glm::dot(texels_[i].direction, normal)) * texels_[i].solid_angle;
             whole += texels_[i].solid_angle;
         }
         result[b] = std::max(projected, 1e-3F * whole);

@@ -8,8 +8,9 @@
 
 namespace antiradiance {
 
-// n Fibonacci-sphere directions (Swinbank & Purser 2006), tilted so that no border of a bin falls on
-// an axis; each direction of space belongs to the nearest one. Lookup by a cube map of bin numbers.
+// n Fibonacci-sphere directions (Swinbank & Purser 2006), tilted so that no border of a bin falls
+// on an axis; each direction of space belongs to the nearest one. Lookup by a cube map of bin
+// numbers.
 class DirectionBins {
 public:
     DirectionBins() = default;
@@ -20,8 +21,8 @@ public:
     [[nodiscard]] int bin(const vec3& direction) const;  // any length but 0
     [[nodiscard]] float mean_solid_angle() const { return 4 * kPi / static_cast<float>(count()); }
 
-    // C(b) = integral over bin b of max(0, -d . n), sr: the projected solid angle through which light
-    // that travels along the bin reaches a surface with normal n; floored at 1e-3 of the bin.
+    // C(b) = integral over bin b of max(0, -d . n), sr: the projected solid angle through which
+    // light that travels along the bin reaches a surface with normal n; floored at 1e-3 of the bin.
     [[nodiscard]] std::vector<float> projected_solid_angles(const vec3& normal) const;  // #bins
 
 private:

@@ -25,7 +25,8 @@ PlaneSide side_of_plane(const GrowingNode& patch, const GrowingNode& plane) {
     float low = height;
     float high = height;
     for (int i = 0; i < patch.corner_count; ++i) {
-        const float h = glm::dot(patch.corners[static_cast<std::size_t>(i)] - plane.center, plane.normal);
+        const float h =
+            glm::dot(patch.corners[static_cast<std::size_t>(i)] - plane.center, plane.normal);
         low = std::min(low, h);
         high = std::max(high, h);
     }
@@ -49,7 +50,8 @@ bool may_receive(const GrowingNode& receiver, const GrowingNode& source) {
 
 vec3 point_of(const GrowingNode& n, const vec2& u) {
     if (n.corner_count == 4)
-        return glm::mix(glm::mix(n.corners[0], n.corners[1], u.x), glm::mix(n.corners[3], n.corners[2], u.x), u.y);
+        return glm::mix(glm::mix(n.corners[0], n.corners[1], u.x),
+                        glm::mix(n.corners[3], n.corners[2], u.x), u.y);
     vec2 t = u;  // square to triangle (Heitz 2019)
     if (t.y > t.x) {
         t.x *= 0.5F;

@@ -14,10 +14,11 @@ namespace antiradiance {
 
 namespace {
 
-constexpr std::size_t kBlock = 256;        // pairs handed to a thread at once
-constexpr std::size_t kEnoughPairs = 2048; // to share out between threads
-constexpr int kNearGrid = 4;               // points along a side of the source of a touching pair
-constexpr float kLeastBinShare = 0.02F;    // of a touching link's form factor: smaller bins are dropped
+constexpr std::size_t kBlock = 256;         // pairs handed to a thread at once
+constexpr std::size_t kEnoughPairs = 2048;  // to share out between threads
+constexpr int kNearGrid = 4;                // points along a side of the source of a touching pair
+constexpr float kLeastBinShare =
+    0.02F;  // of a touching link's form factor: smaller bins are dropped
 
 struct Pair {
     NodeId a, b;
@@ -71,10 +72,17 @@ public:
         }
         const Verdict v = decide(p);
         switch (v.action) {
-            case Verdict::kDrop: return;
-            case Verdict::kLink: link(p, v, out); return;
-            case Verdict::kSplitA: push_children(p.a, p, out); return;
-            case Verdict::kSplitB: push_children(p.b, p, out); return;
+            case Verdict::kDrop:
+                return;
+            case Verdict::kLink:
+                link(p, v, out);
+                return;
+            case Verdict::kSplitA:
+                push_children(p.a, p, out);
+                return;
+            case Verdict::kSplitB:
+                push_children(p.b, p, out);
+                return;
         }
     }
 
@@ -125,14 +133,16 @@ private:
         const PlaneSide a_side = side_of_plane(a, b);
         const PlaneSide b_side = side_of_plane(b, a);
         if (a_side == PlaneSide::kBehind && b_side == PlaneSide::kBehind) return v;
-        if (!options_.antiradiance && (a_side == PlaneSide::kBehind || b_side == PlaneSide::kBehind))
+        if (!options_.antiradiance &&
+            (a_side == PlaneSide::kBehind || b_side == PlaneSide::kBehind))
             return v;
         // Light arrives on fronts: the source must be in front of the receiver. Lamps receive none
         // and, as they block none, send no antiradiance.
-        const auto sign = [](const GrowingNode& source, const GrowingNode& receiver, PlaneSide source_at,
-                             PlaneSide receiver_at) {
+        const auto sign = [](const GrowingNode& source, const GrowingNode& receiver,
+                             PlaneSide source_at, PlaneSide receiver_at) {
             if (source_at == PlaneSide::kBehind || receiver.emits_only) return Sign::kNone;
-            if (receiver_at == PlaneSide::kBehind) return source.emits_only ? Sign::kNone : Sign::kMinus;
+            if (receiver_at == PlaneSide::kBehind)
+                return source.emits_only ? Sign::kNone : Sign::kMinus;
             return Sign::kPlus;
         };
         v.to_b = sign(a, b, a_side, b_side);
@@ -163,7 +173,8 @@ private:
         const float solid_a = a.area * cos_a / d2;
         const float solid_b = b.area * cos_b / d2;
         const float eps = options_.link_threshold * kPi;
-        return solid_a * cos_b < eps && solid_b * cos_a < eps && solid_a < widest_ && solid_b < widest_;
+        return solid_a * cos_b < eps && solid_b * cos_a < eps && solid_a < widest_ &&
+               solid_b < widest_;
     }
 
     // Neither end can be split: the side of each one's centre decides.
@@ -183,7 +194,8 @@ private:
         Verdict v;
         const bool a_receives = may_receive(a, b);
         const bool b_receives = may_receive(b, a);
-        const bool lit = options_.antiradiance ? a_receives || b_receives : a_receives && b_receives;
+        const bool lit =
+            options_.antiradiance ? a_receives || b_receives : a_receives && b_receives;
         if (!lit || (a.emits_only && b.emits_only)) return v;
 
         if (options_.cluster_links && !a.emits_only && !b.emits_only && clusters_are_far(a, b)) {
@@ -212,9 +224,8 @@ private:
             return std::min(n.area, kPi * n.radius * n.radius);
         };
         // Part of one end below the other's horizon: the moments know no horizon, so be finer.
-        const bool straddles =
-            (!a.is_cluster() && std::abs(glm::dot(d, a.normal)) < b.radius) ||
-            (!b.is_cluster() && std::abs(glm::dot(d, b.normal)) < a.radius);
+        const bool straddles = (!a.is_cluster() && std::abs(glm::dot(d, a.normal)) < b.radius) ||
+                               (!b.is_cluster() && std::abs(glm::dot(d, b.normal)) < a.radius);
         const float eps = options_.link_threshold * kPi * (straddles ? 0.25F : 1.0F);
         return face(a) < eps * d2 && face(b) < eps * d2 && face(a) < widest_ * d2 &&
                face(b) < widest_ * d2;
@@ -232,7 +243,8 @@ private:
         if (plus > 0) out.pairs.push_back({p.a, p.b, first, plus});
     }
 
-    void add_links(NodeId source, NodeId receiver, Sign sign, bool touching, BlockResult& out) const {
+    void add_links(NodeId source, NodeId receiver, Sign sign, bool touching,
+                   BlockResult& out) const {
         const GrowingNode& s = tree_.node(source);
         const GrowingNode& r = tree_.node(receiver);
         if (sign == Sign::kMinus && !options_.antiradiance) return;
@@ -263,7 +275,8 @@ private:
     }
 
     // Touching pairs see each other through many bins: shares by point-to-point transfer.
-    void spread_over_bins(NodeId receiver, NodeId source, float ff, bool minus, BlockResult& out) const {
+    void spread_over_bins(NodeId receiver, NodeId source, float ff, bool minus,
+                          BlockResult& out) const {
         const GrowingNode& s = tree_.node(source);
         const GrowingNode& r = tree_.node(receiver);
         struct Share {
@@ -276,7 +289,8 @@ private:
         for (int k = 0; k < 4; ++k) {
             const vec3 to = point_of(r, {k % 2 ? 0.75F : 0.25F, k / 2 ? 0.75F : 0.25F});
             for (int i = 0; i < kNearGrid * kNearGrid; ++i) {
-                const vec2 u = (vec2(i % kNearGrid, i / kNearGrid) + 0.5F) / static_cast<float>(kNearGrid);
+                const vec2 u =
+                    (vec2(i % kNearGrid, i / kNearGrid) + 0.5F) / static_cast<float>(kNearGrid);
                 const vec3 d = to - point_of(s, u);
                 const float d2 = glm::dot(d, d);
                 const float cos_s = glm::dot(s.normal, d) * (minus ? -1.0F : 1.0F);
@@ -286,7 +300,8 @@ private:
                 const int bin = bins_.bin(d);
                 sum += weight;
                 std::size_t at = 0;
-                while (at < count && shares[at].bin != bin) ++at;
+                while (at < count && shares[at].bin != bin)
+                    ++at;
                 if (at == count) shares[count++] = {bin, 0};
                 shares[at].weight += weight;
             }
@@ -305,7 +320,8 @@ private:
         }
     }
 
-    static void add(NodeId receiver, NodeId source, float ff, bool minus, int bin, BlockResult& out) {
+    static void add(NodeId receiver, NodeId source, float ff, bool minus, int bin,
+                    BlockResult& out) {
         out.links.push_back({receiver, source, minus ? -ff : ff, static_cast<std::uint16_t>(bin)});
     }
 
@@ -320,7 +336,8 @@ std::vector<Pair> first_pairs(const Refiner& refiner, std::vector<BlockResult>& 
     std::vector<Pair> pairs{{GrowingTree::kRoot, GrowingTree::kRoot}};
     BlockResult& out = results.emplace_back();
     while (!pairs.empty() && pairs.size() < kEnoughPairs) {
-        for (const Pair& p : pairs) refiner.step(p, out);
+        for (const Pair& p : pairs)
+            refiner.step(p, out);
         pairs.swap(out.stack);
         out.stack.clear();
     }
@@ -339,8 +356,8 @@ void append(RefinedLinks& all, BlockResult& block) {
 
 }  // namespace
 
-RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins, const RefineOptions& options,
-                          Progress& progress) {
+RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins,
+                          const RefineOptions& options, Progress& progress) {
     const Refiner refiner(tree, bins, options);
     RefinedLinks all;
     std::vector<BlockResult> results;
@@ -367,9 +384,10 @@ RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins, const Re
             },
             span);
         if (link_count > options.most_links) {
-            throw SceneError("The link mesh would need more than " + std::to_string(options.most_links) +
-                             " links, which do not fit into this machine's memory: raise Link Threshold or "
-                             "Max Patch Size, or set Visibility to Explicit");
+            throw SceneError(
+                "The link mesh would need more than " + std::to_string(options.most_links) +
+                " links, which do not fit into this machine's memory: raise Link Threshold or "
+                "Max Patch Size, or set Visibility to Explicit");
         }
         done = span.end;
         for (BlockResult& block : results) {

@@ -16,8 +16,9 @@ struct RefineOptions {
     float bin_share = 1;           // k: largest solid angle of an end, in bins
     float least_edge = 0;          // m: patches whose longest edge is below are not split
     bool cluster_links = false;    // EXPLICIT only: far clusters link as one
-    float cluster_floor = 0.02F;   // m: clusters with smaller radii are not refined against each other
-    bool antiradiance = true;      // make - links
+    float cluster_floor =
+        0.02F;                 // m: clusters with smaller radii are not refined against each other
+    bool antiradiance = true;  // make - links
     std::size_t most_links = SIZE_MAX;  // stop with a SceneError beyond
 };
 
@@ -47,7 +48,7 @@ struct RefinedLinks {
 // larger one. Pairs that can't be split any further link all the same; where they touch, the link
 // is spread over the bins that it covers ("Near field").
 // Deterministic: the result does not depend on the number of threads.
-RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins, const RefineOptions& options,
-                          Progress& progress);
+RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins,
+                          const RefineOptions& options, Progress& progress);
 
 }  // namespace antiradiance

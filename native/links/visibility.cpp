@@ -21,7 +21,8 @@ public:
         : sampler_(tree), rays_(rays), count_(static_cast<std::uint32_t>(rays_per_pair)) {}
 
     [[nodiscard]] float operator()(NodeId a, NodeId b) const {
-        const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+        const std::uint32_t seed =
+            hash_combine(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
         std::uint32_t facing = 0;
         std::uint32_t free = 0;
         for (std::uint32_t i = 0; i < count_; ++i) {
@@ -33,7 +34,8 @@ public:
                 if (glm::dot(d, p.normal) <= 0 || glm::dot(d, q.normal) >= 0) continue;
                 ++facing;
                 const float offset = 2 * rays_.epsilon();
-                if (!rays_.occluded(p.point + p.normal * offset, q.point + q.normal * offset)) ++free;
+                if (!rays_.occluded(p.point + p.normal * offset, q.point + q.normal * offset))
+                    ++free;
                 break;
             }
         }
@@ -61,7 +63,8 @@ SurfaceSampler::SurfaceSampler(const PatchTree& tree) : tree_(tree) {
 
 SurfaceSampler::Sample SurfaceSampler::sample(NodeId node, const vec2& u) const {
     const auto n = static_cast<std::size_t>(node);
-    if (!tree_.is_cluster(node) && tree_.exposed[n] >= 1) return {tree_.patch_point(node, u), tree_.normal[n]};
+    if (!tree_.is_cluster(node) && tree_.exposed[n] >= 1)
+        return {tree_.patch_point(node, u), tree_.normal[n]};
     const auto begin = static_cast<std::size_t>(first_leaf_[n]);
     const auto end =
         static_cast<std::size_t>(first_leaf_[static_cast<std::size_t>(tree_.subtree_end[n])]);
@@ -100,7 +103,8 @@ void apply_ray_visibility(const PatchTree& tree, const RayScene& rays, int rays_
         for (std::size_t i = begin; i < end; ++i) {
             const LinkedPair& p = pairs[i];
             const float v = visibility(p.a, p.b);
-            for (RawLink& l : links.subspan(p.first, p.count)) l.form_factor *= v;
+            for (RawLink& l : links.subspan(p.first, p.count))
+                l.form_factor *= v;
         }
         progress.check();
     });

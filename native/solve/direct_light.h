@@ -31,7 +31,8 @@ public:
                                   std::uint32_t sample_index, std::uint32_t seed) const;
 
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes
-    [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree, Progress& progress) const;
+    [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree,
+                                                    Progress& progress) const;
 
 private:
     struct Impl;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/cpu_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "hierarchy/push_pull.h"
+#include "solve/convergence.h"
+#include "solve/transport.h"
+
+namespace antiradiance {
+
+namespace {
+
+class CpuSolver final : public Solver {
+public:
+    Solution solve(const TransportProblem& problem, const SolveOptions& options,
+                   Progress& progress) override {
+        const PatchTree& tree = problem.tree;
+        Transport transport(tree, problem.links);
+        Solution solution;
+        solution.backend = "CPU";
+        solution.renderer =
+            "CPU, " + std::to_string(std::thread::hardware_concurrency()) + " threads";
+        solution.radiance.assign(problem.source.begin(), problem.source.end());
+        solution.irradiance.assign(tree.size(), vec3(0));
+        pull_area_average<vec3>(tree, solution.radiance);
+
+        const auto start = std::chrono::steady_clock::now();
+        const Sweep sweep = options.iterations > 0 ? Sweep::kJacobi : Sweep::kFrontToBack;
+        ConvergenceControl control(options);
+        while (!control.done()) {
+            progress.report(control.progress());
+            transport.gather(solution.radiance, sweep, control.damping(), progress);
+            solution.irradiance = transport.leaf_irradiance();
+            control.next_pass(update_radiance(problem, control.damping(), solution));
+        }
+        solution.iterations = control.passes();
+        solution.residual = control.residual();
+        solution.converged = control.converged();
+        solution.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        for (vec3& e : solution.irradiance)
+            e = glm::max(e, vec3(0));
+        return solution;
+    }
+
+private:
+    // K of Eq. 3 for diffuse surfaces, and the pull. Returns the largest change of L over the
+    // largest L.
+    static float update_radiance(const TransportProblem& problem, float damping,
+                                 Solution& solution) {
+        float change = 0;
+        float largest = 0;
+        for (const NodeId leaf : problem.tree.leaves) {
+            const auto n = static_cast<std::size_t>(leaf);
+            solution.irradiance[n] *= problem.row_scale[n];
+            const vec3 reflected = problem.albedo[n] * kInvPi * solution.irradiance[n];
+            const vec3 next = glm::max(vec3(0), problem.source[n] + reflected);
+            const vec3 difference = next - solution.radiance[n];
+            change = std::max(change, max_component(glm::abs(difference)));
+            largest = std::max(largest, max_component(next));
+            solution.radiance[n] += damping * difference;
+        }
+        pull_area_average<vec3>(problem.tree, solution.radiance);
+        return largest > 0 ? change / largest : 0.0F;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_cpu_solver() {
+    return std::make_unique<CpuSolver>();
+}
+
+std::vector<vec3> gather_once(const PatchTree& tree, const LinkSet& links,
+                              std::span<const vec3> radiance, Progress& progress) {
+    std::vector<vec3> pulled(radiance.begin(), radiance.end());
+    pull_area_average<vec3>(tree, pulled);
+    Transport transport(tree, links);
+    transport.gather(pulled, Sweep::kJacobi, 1, progress);
+    return transport.leaf_irradiance();
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "hierarchy/patch_tree.h"
+#include "links/link_set.h"
+#include "scene/ray_scene.h"
+
+namespace antiradiance {
+
+// EXPLICIT only. The form factors of a receiver must add up to the share of its hemisphere that
+// surfaces cover; centre-to-centre links and a few rays miss that by some percent, which adds up
+// over bounces. Returns for every leaf (covered share by cosine-weighted rays) / (sum of its +
+// links), clamped to [0.6, 1.5]; 1 at other nodes.                                          //
+// #nodes
+std::vector<float> row_scales(const PatchTree& tree, const LinkSet& links, const RayScene& rays,
+                              Progress& progress);
+
+}  // namespace antiradiance

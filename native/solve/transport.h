@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One pass of light over the link mesh on the CPU; the solvers are loops around it.
+//
+// Per bin: gather every segment's Phi (in parallel over bins: J keeps the bin, so for fixed L the
+// antiradiance of one bin depends on that bin alone), then push Phi down and pull L up over the
+// tree.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/progress.h"
+#include "hierarchy/patch_tree.h"
+#include "links/link_set.h"
+#include "solve/moments.h"
+
+namespace antiradiance {
+
+// Four floats that the compiler keeps in one register (a GCC and Clang extension).
+using Float4 [[gnu::vector_size(16)]] = float;
+
+enum class Sweep {
+    kJacobi,       // A of this pass from A of the last one, as the paper prints it
+    kFrontToBack,  // A in place, receivers in order along the bin's axis: one pass solves A where
+                   // occlusion has no cycles
+};
+
+class Transport {
+public:
+    Transport(const PatchTree& tree, const LinkSet& links);
+
+    // Phi of all segments, kept inside; reads radiance (#nodes, pulled) and the last pass's Phi.
+    // damping: weight of the new Phi against the old, 0..1.
+    void gather(std::span<const vec3> radiance, Sweep sweep, float damping, Progress& progress);
+
+    // Irradiance of all leaves from the last gather, W/m2.  // #nodes, 0 at inner nodes
+    [[nodiscard]] std::vector<vec3> leaf_irradiance() const;
+
+private:
+    struct Scratch;
+    void gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch);
+    void load_antiradiance(int bin, Scratch& scratch) const;
+    void add_antiradiance(NodeId node, Float4 change, Scratch& scratch) const;
+    void pull_moments(std::span<const vec3> radiance);
+    void push_cluster_irradiance(std::vector<vec3>& irradiance) const;
+
+    const PatchTree& tree_;
+    const LinkSet& links_;
+    std::vector<Float4> radiance_;              // #nodes, of this pass
+    Float4 most_antiradiance_{};                // upper clamp of A: the largest L of each colour
+    std::vector<Float4> phi_;                   // #segments, W/m2
+    std::vector<std::uint32_t> node_segments_;  // segment numbers by receiver
+    std::vector<std::uint32_t> node_segment_begin_;  // #nodes + 1
+    std::vector<std::int32_t> segment_bin_;          // #segments
+    // Clusters, only where links end at some:
+    bool clusters_send_ = false;
+    bool clusters_receive_ = false;
+    std::vector<Moments> sent_;                      // #nodes if clusters_send_, read at clusters
+    std::vector<std::vector<NodeId>> bin_clusters_;  // #bins: clusters that send into it
+};
+
+}  // namespace antiradiance
