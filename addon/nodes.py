@@ -16,6 +16,8 @@ import numpy as np
 from .colour import (BLACK, Colour, Mapping, Texture, UnsupportedShading, WHITE, add, apply,
                      constant, mix, multiply)
 
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec.709
+
 # Input names of the Principled BSDF: Blender 4 and later first, then 3.x.
 EMISSION_COLOUR = ("Emission Color", "Emission")
 TRANSMISSION = ("Transmission Weight", "Transmission")
@@ -203,7 +205,13 @@ def colour(place: Place, walk: Walk) -> Colour:
     if node is None:
         raise UnsupportedShading(f"the node '{at.socket.name}' ({at.socket.bl_label}) cannot be "
                                  "evaluated, only image textures and constants can")
-    return node(at.socket, output, at.groups, walk)
+    result = node(at.socket, output, at.groups, walk)
+    return grey(result) if place.socket.type == "VALUE" and output.type == "RGBA" else result
+
+
+def grey(value: Colour) -> Colour:
+    """What a colour becomes where it is linked to a number."""
+    return apply("grey", lambda texels: np.repeat((texels @ LUMINANCE)[..., None], 3, axis=-1), value)
 
 
 def value_node(node, output, groups, walk):

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drives Blender from outside: `in_blender` runs a script of inside/, `render` makes a picture."""
+
+import json
+import pathlib
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+INSIDE = pathlib.Path(__file__).parent / "inside"
+
+
+@pytest.fixture(scope="session")
+def in_blender(run_blender, tmp_path_factory):
+    """in_blender("script.py", *arguments) -> what the script gave to recorder.finish()."""
+
+    def run(script, *arguments, timeout=300):
+        output = tmp_path_factory.mktemp("inside") / "result.json"
+        done = run_blender("-P", INSIDE / script, "--", output, *arguments, timeout=timeout)
+        assert done.returncode == 0, done.stdout
+        assert output.exists(), f"{script} gave no result:\n{done.stdout}"
+        return json.loads(output.read_text())
+
+    return run
+
+
+@dataclass
+class Rendered:
+    """One `blender -b ... -f`. Pictures have row 0 at the top, as files have."""
+
+    exit_code: int
+    log: str
+    report: dict | None  # the JSON report, None if none was written
+    passes: dict[str, np.ndarray] = field(default_factory=dict)  # name -> (h, w[, channels])
+    picture_files: tuple[pathlib.Path, ...] = ()
+
+    @property
+    def combined(self):
+        return self.passes["Combined"]
+
+
+def read_multilayer(path):
+    """{"Combined": (h, w, 4), "Depth": (h, w), "Normal": (h, w, 3)}; other layers as "Layer.Pass"."""
+    import OpenImageIO as oiio
+
+    image = oiio.ImageBuf(str(path))
+    assert not image.has_error, f"{path}: {image.geterror()}"
+    spec = image.spec()
+    pixels = np.asarray(image.get_pixels(oiio.FLOAT)).reshape(spec.height, spec.width, -1)
+    channels = {}
+    for index, name in enumerate(spec.channelnames):
+        layer, pass_name, channel = name.rsplit(".", 2)
+        channels.setdefault((layer, pass_name), {})[channel] = pixels[:, :, index]
+    passes = {}
+    for (layer, pass_name), parts in channels.items():
+        order = [c for c in "RGBAXYZV" if c in parts]
+        stack = np.stack([parts[c] for c in order], axis=-1)
+        passes[f"{layer}.{pass_name}"] = stack[..., 0] if len(order) == 1 else stack
+        passes.setdefault(pass_name, passes[f"{layer}.{pass_name}"])
+    return passes
+
+
+@pytest.fixture
+def render(run_blender, tmp_path):
+    """render(scene, python="", frame=1, **options) -> Rendered.
+
+    scene: a .blend file, or a script of inside/ that builds one. python: run before rendering, with
+    `scene` the scene. options: properties of scene.antiradiance.
+    """
+    counter = iter(range(1000))
+
+    def run(scene, python="", frame=1, arguments=(), timeout=600, **options):
+        folder = tmp_path / f"render_{next(counter)}"
+        folder.mkdir()
+        options.setdefault("report_path", str(folder / "report.json"))
+        lines = ["import bpy", "scene = bpy.context.scene", *python.splitlines()]
+        lines += [f"scene.antiradiance.{name} = {value!r}" for name, value in options.items()]
+        set_up = folder / "set_up.py"
+        set_up.write_text("\n".join(lines) + "\n")
+        scene = pathlib.Path(scene)
+        opening = [scene] if scene.suffix == ".blend" else ["-P", INSIDE / scene]
+        done = run_blender(
+            *opening, "-E", "ANTIRADIANCE", "-P", set_up, "-o", folder / "frame_",
+            "-F", "OPEN_EXR_MULTILAYER", "-x", "1", "-f", frame, "--", *arguments, timeout=timeout,
+        )
+        report = pathlib.Path(options["report_path"])
+        pictures = tuple(sorted(folder.glob("frame_*")))
+        return Rendered(
+            exit_code=done.returncode,
+            log=done.stdout,
+            report=json.loads(report.read_text()) if report.is_file() else None,
+            passes=read_multilayer(pictures[-1]) if pictures else {},
+            picture_files=pictures,
+        )
+
+    return run
