@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cpp_files() {
-    find native tests/native tests/bench -name '*.h' -o -name '*.cpp' | sort
+    find native tests -name '*.h' -o -name '*.cpp' | sort
 }
 
 case ${1:-} in
