@@ -56,6 +56,10 @@ def uv_coordinates(layer) -> np.ndarray:
     return uv
 
 
+# Cycles 3.4 multiplies a spot's light by the cosine to its axis (measured); newer ones do not.
+SPOT_HAS_COSINE = bpy.app.version < (4, 0, 0)
+
+
 def lamp_scale(light, matrix_world) -> np.ndarray:
     """(3,) What multiplies colour x energy: 2^exposure, the colour of the temperature, and the
     lamp's area where its power is given per area (all new in 4.5 and 5.x)."""

@@ -2,7 +2,7 @@
 """Blender's lamps -> the core's.
 
 Blender's units: point, spot and area lamps W of radiant flux, sun W/m2 on a facing surface. What
-radiance follows from them is the core's business; here only the lamp's own shader and scale count.
+radiance follows from them, and what a scaled lamp means, is the core's business.
 """
 import math
 
@@ -38,14 +38,6 @@ def shader_factor(light, warn) -> tuple[float, float, float]:
         return 1.0, 1.0, 1.0
 
 
-def split_scale(matrix: np.ndarray):
-    """(4, 4) -> the same without scale, and the scale along x, y, z."""
-    scale = np.linalg.norm(matrix[:3, :3], axis=0)
-    rigid = matrix.copy()
-    rigid[:3, :3] /= np.where(scale > 0, scale, 1.0)
-    return rigid, scale
-
-
 def power(light, matrix_world, warn) -> np.ndarray:
     """(3,) colour x W, or W/m2 for a sun"""
     colour = np.asarray(light.color[:], float) * np.asarray(shader_factor(light, warn))
@@ -55,24 +47,23 @@ def power(light, matrix_world, warn) -> np.ndarray:
 def add_lamp(scene, name, lamp_object, matrix_world, warn):
     """Adds `lamp_object`, a LIGHT, at `matrix_world` to the core's `scene`."""
     light = lamp_object.data
-    matrix, scale = split_scale(np.array(matrix_world, np.float32))
     settings = {
         "type": light.type,
-        "matrix": matrix,
+        "matrix": np.array(matrix_world, np.float32),
         "color": tuple(float(channel) for channel in power(light, matrix_world, warn)),
         "visible_to_camera": lamp_object.visible_camera,
     }
     if light.type in {"POINT", "SPOT"}:
         settings["radius"] = light.shadow_soft_size
     if light.type == "SPOT":
-        settings.update(spot_angle=light.spot_size, spot_blend=light.spot_blend)
+        settings.update(spot_angle=light.spot_size, spot_blend=light.spot_blend,
+                        spot_cosine=compat.SPOT_HAS_COSINE)
     if light.type == "SUN":
         settings["sun_angle"] = light.angle
     if light.type == "AREA":
         shape, has_y = AREA_SHAPES[light.shape]
-        settings.update(shape=shape, size_x=light.size * float(scale[0]),
-                        size_y=(light.size_y if has_y else light.size) * float(scale[1]),
-                        spread=min(light.spread, math.pi))
+        settings.update(shape=shape, size_x=light.size,
+                        size_y=light.size_y if has_y else light.size, spread=min(light.spread, math.pi))
     if not light_casts_shadow(light):
         warn(f"Lamp '{name}': it casts shadows, its Shadow setting is left out")
     scene.add_lamp(name, **settings)

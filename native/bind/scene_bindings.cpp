@@ -127,8 +127,8 @@ int add_mesh_arrays(Scene& scene, const std::string& object_name, const py::arra
 
 int add_lamp(Scene& scene, const std::string& name, const std::string& type,
              const py::object& matrix, const py::object& color, float radius, float spot_angle,
-             float spot_blend, float sun_angle, const std::string& shape, float size_x,
-             float size_y, bool visible_to_camera, float spread) {
+             float spot_blend, bool spot_cosine, float sun_angle, const std::string& shape,
+             float size_x, float size_y, bool visible_to_camera, float spread) {
     Lamp lamp;
     lamp.name = name;
     lamp.type = by_name<LampType>(type, "type of the lamp '" + name + "'",
@@ -141,6 +141,7 @@ int add_lamp(Scene& scene, const std::string& name, const std::string& type,
     lamp.radius = radius;
     lamp.spot_angle = spot_angle;
     lamp.spot_blend = spot_blend;
+    lamp.spot_cosine = spot_cosine;
     lamp.sun_angle = sun_angle;
     lamp.shape = by_name<AreaShape>(
         shape, "shape of the lamp '" + name + "'",
@@ -202,9 +203,9 @@ void bind_scene(py::module_& module) {
              "slot_materials: material of each slot; uv (t,3,2) f32; corner_normals (t,3,3) f32, "
              "object space")
         .def("add_lamp", &add_lamp, "name"_a, py::kw_only(), "type"_a, "matrix"_a, "color"_a,
-             "radius"_a = 0.0F, "spot_angle"_a = 0.0F, "spot_blend"_a = 0.0F, "sun_angle"_a = 0.0F,
-             "shape"_a = "RECTANGLE", "size_x"_a = 1.0F, "size_y"_a = 1.0F,
-             "visible_to_camera"_a = false, "spread"_a = kPi,
+             "radius"_a = 0.0F, "spot_angle"_a = 0.0F, "spot_blend"_a = 0.0F,
+             "spot_cosine"_a = false, "sun_angle"_a = 0.0F, "shape"_a = "RECTANGLE",
+             "size_x"_a = 1.0F, "size_y"_a = 1.0F, "visible_to_camera"_a = false, "spread"_a = kPi,
              "type: POINT, SPOT, SUN or AREA; color: colour x W (SUN: W/m2); lengths in m, full "
              "angles in rad; shape: RECTANGLE or ELLIPSE")
         .def("set_camera", &set_camera, "matrix"_a, py::kw_only(), "type"_a, "width"_a, "height"_a,
