@@ -13,8 +13,6 @@ const char* __tsan_default_options();
 }
 #pragma GCC visibility pop
 
-return "strict_init_order=1:detect_stack_use_after_return=1";
-}
 const char* __lsan_default_options() {
     return SUPPRESSIONS("lsan.supp") ":print_suppressions=0";
 }
