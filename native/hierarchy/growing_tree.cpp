@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "hierarchy/surfaces.h"
+
 namespace antiradiance {
 
 namespace {
@@ -71,19 +73,6 @@ vec3 point_on(const Surface& s, const vec2& uv) {
                         glm::mix(s.corners[3], s.corners[2], uv.x), uv.y);
     }
     return s.corners[0] * (1 - uv.x - uv.y) + s.corners[1] * uv.x + s.corners[2] * uv.y;
-}
-
-vec3 surface_center(const Surface& s) {
-    vec3 sum(0);
-    for (int i = 0; i < s.corner_count; ++i)
-        sum += s.corners[static_cast<std::size_t>(i)];
-    return sum / static_cast<float>(s.corner_count);
-}
-
-vec3 surface_area_vector(const Surface& s) {
-    if (s.corner_count == 4)
-        return 0.5F * glm::cross(s.corners[2] - s.corners[0], s.corners[3] - s.corners[1]);
-    return 0.5F * glm::cross(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0]);
 }
 
 // Position and normal as one point whose widest axis a cluster is split along.

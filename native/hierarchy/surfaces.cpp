@@ -156,13 +156,27 @@ Surface make_surface(const Scene& scene, const Polygon& polygon, bool back_side)
     return s;
 }
 
+vec3 surface_center(const Surface& s) {
+    vec3 sum(0);
+    for (int i = 0; i < s.corner_count; ++i)
+        sum += s.corners[static_cast<std::size_t>(i)];
+    return sum / static_cast<float>(s.corner_count);
+}
+
+vec3 surface_area_vector(const Surface& s) {
+    if (s.corner_count == 4)
+        return 0.5F * glm::cross(s.corners[2] - s.corners[0], s.corners[3] - s.corners[1]);
+    return 0.5F * glm::cross(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0]);
+}
+
 Surface make_lamp_surface(const Lamp& lamp, std::int32_t lamp_index) {
     // An ellipse has pi/4 of the area of the rectangle around it.
     const float shrink = lamp.shape == AreaShape::kEllipse ? std::sqrt(kPi) / 2 : 1.0F;
     const vec3 center = lamp_position(lamp);
     Surface s;
     s.corners = area_lamp_corners(lamp);
-    for (vec3& corner : s.corners) corner = center + (corner - center) * shrink;
+    for (vec3& corner : s.corners)
+        corner = center + (corner - center) * shrink;
     s.corner_count = 4;
     s.lamp = lamp_index;
     return s;

@@ -25,6 +25,12 @@ std::vector<Polygon> make_polygons(const Scene& scene);
 // The side of a polygon as a surface of the hierarchy.
 Surface make_surface(const Scene& scene, const Polygon& polygon, bool back_side);
 
+vec3 surface_center(const Surface& surface);       // m
+vec3 surface_area_vector(const Surface& surface);  // m2, normal times area
+inline float surface_area(const Surface& surface) {
+    return glm::length(surface_area_vector(surface));
+}
+
 // The four corners of a rectangular or elliptic area lamp (ellipse: the rectangle of equal area).
 Surface make_lamp_surface(const Lamp& lamp, std::int32_t lamp_index);
 

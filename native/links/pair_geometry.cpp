@@ -67,13 +67,15 @@ float patch_form_factor(const GrowingNode& s, const GrowingNode& r, bool behind_
     const vec3 d = s.center - r.center;
     const float d2 = glm::dot(d, d);
     const float larger = std::max(s.radius, r.radius);
-    if (d2 > kFarDistance * kFarDistance * larger * larger)
+    // Across the source's plane no single point of the receiver stands for all of it.
+    const bool straddles = std::abs(glm::dot(d, s.normal)) < r.radius;
+    if (!straddles && d2 > kFarDistance * kFarDistance * larger * larger)
         return std::abs(far_form_factor(r.center, r.normal, s.center, s.normal, s.area));
 
     const std::span<const vec3> polygon(s.corners.data(), static_cast<std::size_t>(s.corner_count));
     const float sign = behind_source ? -1.0F : 1.0F;
     int grid = 4;
-    if (d2 > kOnePointDistance * kOnePointDistance * r.radius * r.radius) {
+    if (!straddles && d2 > kOnePointDistance * kOnePointDistance * r.radius * r.radius) {
         grid = 1;
     } else if (d2 > kFourPointsDistance * kFourPointsDistance * larger * larger) {
         grid = 2;

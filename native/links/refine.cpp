@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kBlock = 256;         // pairs handed to a thread at once
 constexpr std::size_t kEnoughPairs = 2048;  // to share out between threads
+constexpr float kStraddlingShare = 0.25F;   // of eps
 constexpr int kNearGrid = 4;                // points along a side of the source of a touching pair
 constexpr float kLeastBinShare =
     0.02F;  // of a touching link's form factor: smaller bins are dropped
@@ -30,13 +31,18 @@ struct Waiting {
     NodeId split;
 };
 
-// How a link may run between the two ends: kNone, +, or -.
-enum class Sign : std::int8_t { kNone, kPlus, kMinus };
+// Which links run from one end to the other: + where the receiver lies in front of the source, -
+// where it lies behind; both where it straddles the source's plane.
+struct Signs {
+    bool plus = false;
+    bool minus = false;
+    [[nodiscard]] bool any() const { return plus || minus; }
+};
 
 struct Verdict {
     enum { kDrop, kLink, kSplitA, kSplitB } action = kDrop;
-    Sign to_b = Sign::kNone;  // a -> b
-    Sign to_a = Sign::kNone;  // b -> a
+    Signs to_b;  // a -> b
+    Signs to_a;  // b -> a
     bool touching = false;
 };
 
@@ -136,58 +142,43 @@ private:
         if (!options_.antiradiance &&
             (a_side == PlaneSide::kBehind || b_side == PlaneSide::kBehind))
             return v;
-        // Light arrives on fronts: the source must be in front of the receiver. Lamps receive none
-        // and, as they block none, send no antiradiance.
-        const auto sign = [](const GrowingNode& source, const GrowingNode& receiver,
-                             PlaneSide source_at, PlaneSide receiver_at) {
-            if (source_at == PlaneSide::kBehind || receiver.emits_only) return Sign::kNone;
-            if (receiver_at == PlaneSide::kBehind)
-                return source.emits_only ? Sign::kNone : Sign::kMinus;
-            return Sign::kPlus;
-        };
-        v.to_b = sign(a, b, a_side, b_side);
-        v.to_a = sign(b, a, b_side, a_side);
-        if (v.to_a == Sign::kNone && v.to_b == Sign::kNone) return v;
+        v.to_b = signs(a, b, a_side, b_side);
+        v.to_a = signs(b, a, b_side, a_side);
+        if (!v.to_a.any() && !v.to_b.any()) return v;
 
         const vec3 d = b.center - a.center;
         const float d2 = glm::dot(d, d);
         const float reach = a.radius + b.radius;
         v.touching = d2 < reach * reach;
         const bool straddles = a_side == PlaneSide::kStraddles || b_side == PlaneSide::kStraddles;
-        if (v.touching || straddles || !small_enough(a, b, d, d2)) {
-            if (split_larger(a, b, v)) return v;
-            if (straddles) settle_straddling(a, b, v);
-        }
-        if (v.to_a == Sign::kNone && v.to_b == Sign::kNone) return v;
+        if ((v.touching || !small_enough(a, b, d, d2, straddles)) && split_larger(a, b, v))
+            return v;
         v.action = Verdict::kLink;
         return v;
     }
 
-    // Both form factors below eps and both solid angles below k bins.
+    // Light arrives on fronts: the source must be in front of the receiver, at least in part. Lamps
+    // receive none and, as they block none, send no antiradiance.
+    [[nodiscard]] Signs signs(const GrowingNode& source, const GrowingNode& receiver,
+                              PlaneSide source_at, PlaneSide receiver_at) const {
+        if (source_at == PlaneSide::kBehind || receiver.emits_only) return {};
+        return {receiver_at != PlaneSide::kBehind,
+                receiver_at != PlaneSide::kInFront && !source.emits_only && options_.antiradiance};
+    }
+
+    // Both form factors below eps (a quarter of it where one end straddles the other's plane, since
+    // the form factor varies most there) and both solid angles below k bins.
     [[nodiscard]] bool small_enough(const GrowingNode& a, const GrowingNode& b, const vec3& d,
-                                    float d2) const {
+                                    float d2, bool straddles) const {
         const float distance = std::sqrt(d2);
         // A centre's cosine says little of a patch seen edge-on; its radius bounds what it hides.
         const float cos_a = std::max(std::abs(glm::dot(a.normal, d)), 0.5F * b.radius) / distance;
         const float cos_b = std::max(std::abs(glm::dot(b.normal, d)), 0.5F * a.radius) / distance;
         const float solid_a = a.area * cos_a / d2;
         const float solid_b = b.area * cos_b / d2;
-        const float eps = options_.link_threshold * kPi;
+        const float eps = options_.link_threshold * kPi * (straddles ? kStraddlingShare : 1.0F);
         return solid_a * cos_b < eps && solid_b * cos_a < eps && solid_a < widest_ &&
                solid_b < widest_;
-    }
-
-    // Neither end can be split: the side of each one's centre decides.
-    static void settle_straddling(const GrowingNode& a, const GrowingNode& b, Verdict& v) {
-        const bool a_in_front = glm::dot(a.center - b.center, b.normal) > 0;
-        const bool b_in_front = glm::dot(b.center - a.center, a.normal) > 0;
-        const auto settle = [](Sign sign, bool source_in_front, bool receiver_in_front, bool lamp) {
-            if (sign == Sign::kNone || !source_in_front) return Sign::kNone;
-            if (receiver_in_front) return Sign::kPlus;
-            return lamp ? Sign::kNone : Sign::kMinus;
-        };
-        v.to_b = settle(v.to_b, a_in_front, b_in_front, a.emits_only);
-        v.to_a = settle(v.to_a, b_in_front, a_in_front, b.emits_only);
     }
 
     [[nodiscard]] Verdict decide_clusters(const GrowingNode& a, const GrowingNode& b) const {
@@ -200,7 +191,7 @@ private:
 
         if (options_.cluster_links && !a.emits_only && !b.emits_only && clusters_are_far(a, b)) {
             v.action = Verdict::kLink;
-            v.to_a = v.to_b = Sign::kPlus;
+            v.to_a.plus = v.to_b.plus = true;
             return v;
         }
         // Where one end is a patch, refine the cluster first: the patch may be fine as it is.
@@ -226,29 +217,53 @@ private:
         // Part of one end below the other's horizon: the moments know no horizon, so be finer.
         const bool straddles = (!a.is_cluster() && std::abs(glm::dot(d, a.normal)) < b.radius) ||
                                (!b.is_cluster() && std::abs(glm::dot(d, b.normal)) < a.radius);
-        const float eps = options_.link_threshold * kPi * (straddles ? 0.25F : 1.0F);
+        const float eps = options_.link_threshold * kPi * (straddles ? kStraddlingShare : 1.0F);
         return face(a) < eps * d2 && face(b) < eps * d2 && face(a) < widest_ * d2 &&
                face(b) < widest_ * d2;
     }
 
     void link(const Pair& p, const Verdict& v, BlockResult& out) const {
-        const auto first = static_cast<std::uint32_t>(out.links.size());
-        std::uint32_t plus = 0;
-        // + links first, so that a pair's are consecutive.
-        for (const Sign sign : {Sign::kPlus, Sign::kMinus}) {
-            if (v.to_b == sign) add_links(p.a, p.b, sign, v.touching, out);
-            if (v.to_a == sign) add_links(p.b, p.a, sign, v.touching, out);
-            if (sign == Sign::kPlus) plus = static_cast<std::uint32_t>(out.links.size()) - first;
-        }
-        if (plus > 0) out.pairs.push_back({p.a, p.b, first, plus});
+        const bool shared = tree_.node(p.a).is_leaf() && tree_.node(p.b).is_leaf();
+        auto first = static_cast<std::uint32_t>(out.links.size());
+        const auto end_pair = [&](NodeId a, NodeId b) {
+            const auto end = static_cast<std::uint32_t>(out.links.size());
+            if (end > first) out.pairs.push_back({a, b, first, end - first});
+            first = end;
+        };
+        const auto plus = [&](NodeId source, NodeId receiver) {
+            for_receivers(receiver, options_.receiver_levels, [&](NodeId r) {
+                add_links(source, r, false, v.touching, out);
+                if (!shared) end_pair(source, r);
+            });
+        };
+        if (v.to_b.plus) plus(p.a, p.b);
+        if (v.to_a.plus) plus(p.b, p.a);
+        if (shared) end_pair(p.a, p.b);
+
+        const auto minus = [&](NodeId source, NodeId receiver) {
+            for_receivers(receiver, options_.receiver_levels,
+                          [&](NodeId r) { add_links(source, r, true, v.touching, out); });
+        };
+        if (v.to_b.minus) minus(p.a, p.b);
+        if (v.to_a.minus) minus(p.b, p.a);
     }
 
-    void add_links(NodeId source, NodeId receiver, Sign sign, bool touching,
+    // The descendants of a patch that links end at, `levels` below it or at its leaves.
+    template <typename Visit>
+    void for_receivers(NodeId n, int levels, const Visit& visit) const {
+        const GrowingNode& node = tree_.node(n);
+        if (levels == 0 || node.is_leaf() || node.is_cluster()) {
+            visit(n);
+            return;
+        }
+        for (NodeId i = 0; i < node.child_count; ++i)
+            for_receivers(node.first_child + i, levels - 1, visit);
+    }
+
+    void add_links(NodeId source, NodeId receiver, bool minus, bool touching,
                    BlockResult& out) const {
         const GrowingNode& s = tree_.node(source);
         const GrowingNode& r = tree_.node(receiver);
-        if (sign == Sign::kMinus && !options_.antiradiance) return;
-        const bool minus = sign == Sign::kMinus;
         const vec3 d = r.center - s.center;
         if (s.is_cluster() || r.is_cluster()) {
             const float ff = cluster_factor(s, r, d);

@@ -26,7 +26,7 @@ struct Options {
     int visibility_rays = 4;       // per link, 1..64
     SolverChoice solver = SolverChoice::kAuto;
     DisplayMode display = DisplayMode::kPatches;
-    std::string report_path;       // empty: no report is written
+    std::string report_path;  // empty: no report is written
 
     bool operator==(const Options&) const = default;
 };
@@ -40,10 +40,12 @@ struct EnumItem {
 enum class OptionType { kEnum, kInt, kFloat, kPath, kBool };
 enum class OptionUnit { kNone, kLength, kFactor };
 
-// A pointer to the member that an option sets; enums go through their index in `items`.
+using OptionValue = std::variant<int, float, std::string, bool>;
+
+// Reads and writes an option's member; enums as their index in `items`.
 struct OptionAccess {
-    std::variant<int, float, std::string, bool> (*get)(const Options&);
-    void (*set)(Options&, const std::variant<int, float, std::string, bool>&);
+    OptionValue (*get)(const Options&);
+    void (*set)(Options&, const OptionValue&);
 };
 
 struct OptionInfo {
@@ -61,8 +63,6 @@ struct OptionInfo {
 
 // In display order. Defaults are read from a default-constructed Options.
 std::span<const OptionInfo> option_schema();
-
-using OptionValue = std::variant<int, float, std::string, bool>;
 
 // Sets one option by name; enums by id. Throws SceneError that lists the valid names, ids or range.
 void set_option(Options& options, std::string_view name, const OptionValue& value);

@@ -13,18 +13,19 @@ struct Report {
     std::size_t leaves = 0;
     struct {
         std::size_t radiance = 0, antiradiance = 0, total = 0;  // directed links solved
+        std::size_t bytes = 0;                                  // of the sorted link mesh
     } links;
     struct {
-        std::string backend;   // OPENGL or CPU
+        std::string backend;  // OPENGL or CPU
         std::string renderer;
-        std::string reason;    // why this back end
-        int iterations = 0;    // full passes over the links
+        std::string reason;  // why this back end
+        int iterations = 0;  // full passes over the links
         double residual = 0;
         bool converged = false;
     } solve;
     struct {
-        double sync = 0, hierarchy = 0, links = 0, visibility = 0, direct = 0, solve = 0, display = 0,
-               total = 0;
+        double sync = 0, hierarchy = 0, links = 0, visibility = 0, direct = 0, solve = 0,
+               display = 0, total = 0;
     } timings_s;
     std::uint64_t peak_memory_bytes = 0;  // of the process
     std::vector<std::string> warnings;
@@ -32,8 +33,5 @@ struct Report {
 
     [[nodiscard]] std::string to_json() const;
 };
-
-// Peak resident memory of this process so far.
-std::uint64_t peak_memory_bytes();
 
 }  // namespace antiradiance

@@ -28,9 +28,8 @@ Float4 clamp(const Float4& v, const Float4& high) {
 // One thread's memory.
 struct Transport::Scratch {
     // What links read: radiance of all nodes, then clamped antiradiance of all nodes in this bin,
-    // so that the sign of a link is an offset and the inner loop has no branch.       // 2 #nodes
+    // so that the sign of a link is an offset and the inner loop has no branch.  // 1 or 2 #nodes
     std::vector<Float4> sent;
-    std::vector<Float4> antiradiance;  // #nodes, unclamped
 };
 
 Transport::Transport(const PatchTree& tree, const LinkSet& links)
@@ -42,27 +41,75 @@ Transport::Transport(const PatchTree& tree, const LinkSet& links)
       node_segment_begin_(tree.size() + 1, 0),
       segment_bin_(links.segments.size()),
       bin_clusters_(static_cast<std::size_t>(links.bins.count())) {
-    for (const Segment& s : links.segments)
+    index_segments();
+    index_antiradiance();
+}
+
+void Transport::index_segments() {
+    for (const Segment& s : links_.segments)
         ++node_segment_begin_[static_cast<std::size_t>(s.receiver) + 1];
-    for (std::size_t n = 0; n < tree.size(); ++n)
+    for (std::size_t n = 0; n < tree_.size(); ++n)
         node_segment_begin_[n + 1] += node_segment_begin_[n];
     std::vector<std::uint32_t> fill(node_segment_begin_.begin(), node_segment_begin_.end() - 1);
-    std::vector<std::int32_t> last_bin(tree.size(), -1);
-    for (int b = 0; b < links.bins.count(); ++b) {
-        for (std::uint32_t i = links.bin_segments[static_cast<std::size_t>(b)];
-             i < links.bin_segments[static_cast<std::size_t>(b) + 1]; ++i) {
-            const Segment& s = links.segments[i];
+    std::vector<std::int32_t> last_bin(tree_.size(), -1);
+    for (int b = 0; b < links_.bins.count(); ++b) {
+        for (std::uint32_t i = links_.bin_segments[static_cast<std::size_t>(b)];
+             i < links_.bin_segments[static_cast<std::size_t>(b) + 1]; ++i) {
+            const Segment& s = links_.segments[i];
             segment_bin_[i] = b;
             node_segments_[fill[static_cast<std::size_t>(s.receiver)]++] = i;
-            clusters_receive_ = clusters_receive_ || tree.is_cluster(s.receiver);
+            clusters_receive_ = clusters_receive_ || tree_.is_cluster(s.receiver);
             for (std::uint32_t l = s.begin; l < s.end; ++l) {
-                const NodeId source = links.links[l].source;
-                if (!tree.is_cluster(source) || last_bin[static_cast<std::size_t>(source)] == b)
-                    continue;
-                last_bin[static_cast<std::size_t>(source)] = b;
+                const NodeId source = links_.links[l].source;
+                std::int32_t& last = last_bin[static_cast<std::size_t>(source)];
+                if (!tree_.is_cluster(source) || last == b) continue;
+                last = b;
                 bin_clusters_[static_cast<std::size_t>(b)].push_back(source);
                 clusters_send_ = true;
             }
+        }
+    }
+}
+
+void Transport::index_antiradiance() {
+    bin_passing_.assign(bin_clusters_.size() + 1, 0);
+    if (links_.antiradiance_count == 0) return;
+    std::vector<std::uint32_t> segment_of(tree_.size(), 0);
+    for (int b = 0; b < links_.bins.count(); ++b) {
+        index_antiradiance(b, segment_of);
+        bin_passing_[static_cast<std::size_t>(b) + 1] = static_cast<std::uint32_t>(passing_.size());
+    }
+}
+
+// segment_of: #nodes, scratch; 1 + number of a node's segment in this bin, 0: none.
+void Transport::index_antiradiance(int bin, std::vector<std::uint32_t>& segment_of) {
+    const std::uint32_t begin = links_.bin_segments[static_cast<std::size_t>(bin)];
+    const std::uint32_t end = links_.bin_segments[static_cast<std::size_t>(bin) + 1];
+    std::fill(segment_of.begin(), segment_of.end(), 0U);
+    for (std::uint32_t i = begin; i < end; ++i)
+        segment_of[static_cast<std::size_t>(links_.segments[i].receiver)] = i + 1;
+
+    std::vector<char> seen(tree_.size(), 0);
+    const auto contribute = [&](NodeId n, float share) {
+        const std::uint32_t segment = segment_of[static_cast<std::size_t>(n)];
+        if (segment > 0)
+            contributions_.push_back({segment - 1, share * links_.segments[segment - 1].inv_c});
+    };
+    for (std::uint32_t i = begin; i < end; ++i) {
+        const Segment& s = links_.segments[i];
+        for (std::uint32_t l = s.begin; l < s.end; ++l) {
+            const NodeId source = links_.links[l].source;
+            const auto n = static_cast<std::size_t>(source);
+            if (links_.links[l].form_factor > 0 || seen[n]) continue;
+            seen[n] = 1;
+            Passing passing{source, i, static_cast<std::uint32_t>(contributions_.size()), 0};
+            for (NodeId up = source; !tree_.is_cluster(up);
+                 up = tree_.parent[static_cast<std::size_t>(up)])
+                contribute(up, 1);
+            for (NodeId down = source + 1; down < tree_.subtree_end[n]; ++down)
+                contribute(down, tree_.area[static_cast<std::size_t>(down)] / tree_.area[n]);
+            passing.end = static_cast<std::uint32_t>(contributions_.size());
+            passing_.push_back(passing);
         }
     }
 }
@@ -82,10 +129,7 @@ void Transport::gather(std::span<const vec3> radiance, Sweep sweep, float dampin
         Scratch& mine = scratch.local();
         if (mine.sent.empty()) {
             mine.sent = radiance_;
-            if (links_.antiradiance_count > 0) {
-                mine.sent.resize(2 * radiance_.size());
-                mine.antiradiance.resize(radiance_.size());
-            }
+            if (links_.antiradiance_count > 0) mine.sent.resize(2 * radiance_.size());
         }
         gather_bin(static_cast<int>(bin), sweep, damping, mine);
     });
@@ -93,19 +137,20 @@ void Transport::gather(std::span<const vec3> radiance, Sweep sweep, float dampin
 
 void Transport::gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch) {
     const auto b = static_cast<std::size_t>(bin);
-    const bool has_antiradiance = links_.antiradiance_count > 0;
-    if (has_antiradiance) load_antiradiance(bin, scratch);
-    const vec3 axis = links_.bins.axis(bin);
-    for (const NodeId c : bin_clusters_[b]) {
-        const auto n = static_cast<std::size_t>(c);
-        const Moments& sent = sent_[n];
-        scratch.sent[n] = to_float4(tree_.cone_cosine[n] > kNarrowCone ? sent.plain_cosine(axis)
-                                                                       : sent.clamped_cosine(axis));
+    load_clusters(bin, scratch);
+    const Passing* passing = passing_.data() + bin_passing_[b];
+    const Passing* const passing_end = passing_.data() + bin_passing_[b + 1];
+    if (sweep == Sweep::kJacobi) {
+        for (; passing != passing_end; ++passing)
+            load_antiradiance(*passing, scratch);
     }
 
     const auto node_count = static_cast<std::uint32_t>(tree_.size());
     const Float4* const sent = scratch.sent.data();
     for (std::uint32_t i = links_.bin_segments[b]; i < links_.bin_segments[b + 1]; ++i) {
+        // Front to back: by now all segments in front of these nodes have their new Phi.
+        for (; passing != passing_end && passing->first_use == i; ++passing)
+            load_antiradiance(*passing, scratch);
         const Segment& s = links_.segments[i];
         Float4 sum{};
         for (std::uint32_t l = s.begin; l < s.end; ++l) {
@@ -113,56 +158,28 @@ void Transport::gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch
             const std::uint32_t offset = link.form_factor < 0 ? node_count : 0U;
             sum += link.form_factor * sent[static_cast<std::uint32_t>(link.source) + offset];
         }
-        const Float4 phi = phi_[i] + damping * (kPi * sum - phi_[i]);
-        if (has_antiradiance && sweep == Sweep::kFrontToBack)
-            add_antiradiance(s.receiver, (phi - phi_[i]) * s.inv_c, scratch);
-        phi_[i] = phi;
+        phi_[i] += damping * (kPi * sum - phi_[i]);
     }
 }
 
-// A of every node in one bin: what it and the patches above it received (pushed down), and the area
-// average of what the patches below it received (pulled up). Eq. 4's J is diagonal in the bin.
-void Transport::load_antiradiance(int bin, Scratch& scratch) const {
-    const auto b = static_cast<std::size_t>(bin);
-    std::vector<Float4>& a = scratch.antiradiance;
-    std::fill(a.begin(), a.end(), Float4{});
-    for (std::uint32_t i = links_.bin_segments[b]; i < links_.bin_segments[b + 1]; ++i) {
-        const Segment& s = links_.segments[i];
-        a[static_cast<std::size_t>(s.receiver)] = phi_[i] * s.inv_c;
-    }
-    Float4* const below = scratch.sent.data() + tree_.size();
-    std::fill(below, below + tree_.size(), Float4{});
-    for (std::size_t n = tree_.size(); n-- > 1;) {
-        if (tree_.is_cluster(static_cast<NodeId>(n))) continue;
-        const auto p = static_cast<std::size_t>(tree_.parent[n]);
-        if (!tree_.is_cluster(tree_.parent[n]))
-            below[p] += (a[n] + below[n]) * (tree_.area[n] / tree_.area[p]);
-    }
-    for (std::size_t n = 1; n < tree_.size(); ++n) {
-        if (tree_.is_cluster(static_cast<NodeId>(n))) continue;
-        if (!tree_.is_cluster(tree_.parent[n]))
-            a[n] += a[static_cast<std::size_t>(tree_.parent[n])];
-    }
-    for (std::size_t n = 0; n < tree_.size(); ++n) {
-        a[n] += below[n];
-        below[n] = clamp(a[n], most_antiradiance_);
+void Transport::load_clusters(int bin, Scratch& scratch) const {
+    const vec3 axis = links_.bins.axis(bin);
+    for (const NodeId c : bin_clusters_[static_cast<std::size_t>(bin)]) {
+        const auto n = static_cast<std::size_t>(c);
+        scratch.sent[n] =
+            to_float4(tree_.cone_cosine[n] > kNarrowCone ? sent_[n].plain_cosine(axis)
+                                                         : sent_[n].clamped_cosine(axis));
     }
 }
 
-void Transport::add_antiradiance(NodeId node, Float4 change, Scratch& scratch) const {
-    Float4* const clamped = scratch.sent.data() + tree_.size();
-    const auto end = static_cast<std::size_t>(tree_.subtree_end[static_cast<std::size_t>(node)]);
-    for (auto n = static_cast<std::size_t>(node); n < end; ++n) {
-        scratch.antiradiance[n] += change;
-        clamped[n] = clamp(scratch.antiradiance[n], most_antiradiance_);
-    }
-    const float area = tree_.area[static_cast<std::size_t>(node)];
-    for (NodeId p = tree_.parent[static_cast<std::size_t>(node)]; !tree_.is_cluster(p);
-         p = tree_.parent[static_cast<std::size_t>(p)]) {
-        const auto n = static_cast<std::size_t>(p);
-        scratch.antiradiance[n] += change * (area / tree_.area[n]);
-        clamped[n] = clamp(scratch.antiradiance[n], most_antiradiance_);
-    }
+// J of Eq. 4, diagonal in the bin, and the clamp that keeps the solve bounded (algorithm.md "It can
+// diverge").
+void Transport::load_antiradiance(const Passing& passing, Scratch& scratch) const {
+    Float4 a{};
+    for (std::uint32_t c = passing.begin; c < passing.end; ++c)
+        a += contributions_[c].weight * phi_[contributions_[c].segment];
+    scratch.sent[tree_.size() + static_cast<std::size_t>(passing.node)] =
+        clamp(a, most_antiradiance_);
 }
 
 void Transport::pull_moments(std::span<const vec3> radiance) {

@@ -37,10 +37,25 @@ public:
     [[nodiscard]] std::vector<vec3> leaf_irradiance() const;
 
 private:
+    // The antiradiance of one node that - links of a bin read: a weighted sum of Phi over the
+    // segments of the patches above it (pushed down), of itself, and below it (pulled up).
+    struct Passing {
+        NodeId node;
+        std::uint32_t first_use;   // segment whose links read it first
+        std::uint32_t begin, end;  // into contributions_
+    };
+    struct Contribution {
+        std::uint32_t segment;
+        float weight;  // 1 / C(b), times the share of the area for patches below
+    };
     struct Scratch;
+
+    void index_segments();
+    void index_antiradiance();
+    void index_antiradiance(int bin, std::vector<std::uint32_t>& segment_of);
     void gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch);
-    void load_antiradiance(int bin, Scratch& scratch) const;
-    void add_antiradiance(NodeId node, Float4 change, Scratch& scratch) const;
+    void load_clusters(int bin, Scratch& scratch) const;
+    void load_antiradiance(const Passing& passing, Scratch& scratch) const;
     void pull_moments(std::span<const vec3> radiance);
     void push_cluster_irradiance(std::vector<vec3>& irradiance) const;
 
@@ -52,6 +67,9 @@ private:
     std::vector<std::uint32_t> node_segments_;  // segment numbers by receiver
     std::vector<std::uint32_t> node_segment_begin_;  // #nodes + 1
     std::vector<std::int32_t> segment_bin_;          // #segments
+    std::vector<Passing> passing_;                   // by bin, then by first use
+    std::vector<std::uint32_t> bin_passing_;         // #bins + 1
+    std::vector<Contribution> contributions_;
     // Clusters, only where links end at some:
     bool clusters_send_ = false;
     bool clusters_receive_ = false;

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "hierarchy/coverage.h"
+#include "hierarchy/growing_tree.h"
+#include "hierarchy/lit_sides.h"
+#include "hierarchy/surfaces.h"
+#include "links/build_link_set.h"
+#include "links/refine.h"
+#include "links/visibility.h"
+#include "pipeline/stopwatch.h"
+#include "solve/row_normalisation.h"
+
+namespace antiradiance {
+
+namespace {
+
+// Leaves that a scene gets at the default patch size before links split any, if all its surfaces
+// were square. Rooms end at two to three times as many.
+constexpr float kDefaultLeaves = 5000;
+// Patches may be split for the sake of links down to this share of the patch size.
+constexpr float kLeastEdge = 0.5F;
+// Above this many surfaces EXPLICIT links clusters; below it polygons are a little more accurate
+// (algorithm.md "Clusters").
+constexpr std::size_t kClusterSurfaces = 4000;
+
+// Bytes, of all stages' arrays together at their peak.
+constexpr double kBytesPerPatch = 600;
+constexpr double kBytesPerLink = 56;
+constexpr double kLinksPerPatch = 60;
+constexpr double kMemoryShare = 0.8;  // of what is available
+
+std::string gibibytes(double bytes) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.1f GiB", bytes / (1024.0 * 1024.0 * 1024.0));
+    return text;
+}
+
+std::vector<Surface> lit_surfaces(const Scene& scene, const RayScene& rays, const Options& options,
+                                  Progress& progress) {
+    const std::vector<Polygon> polygons = make_polygons(scene);
+    const auto lit = find_lit_sides(scene, rays, polygons, progress);
+    std::vector<Surface> surfaces;
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+        for (const bool back_side : {false, true}) {
+            if (lit[p][back_side ? 1 : 0])
+                surfaces.push_back(make_surface(scene, polygons[p], back_side));
+        }
+    }
+    if (options.direct_light == DirectLightMode::kImplicit) {
+        for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
+            if (scene.lamps[i].type == LampType::kArea)
+                surfaces.push_back(make_lamp_surface(scene.lamps[i], static_cast<std::int32_t>(i)));
+        }
+    }
+    return surfaces;
+}
+
+float automatic_patch_size(const std::vector<Surface>& surfaces) {
+    double area = 0;
+    for (const Surface& s : surfaces)
+        area += static_cast<double>(surface_area(s));
+    return static_cast<float>(std::sqrt(area / kDefaultLeaves));
+}
+
+void check_memory(const Scene& scene, const std::vector<Surface>& surfaces, float patch_size) {
+    const GrowingTree::Estimate estimate = GrowingTree::estimate_patches(surfaces, patch_size);
+    const double needed = estimate.patches * (kBytesPerPatch + kLinksPerPatch * kBytesPerLink);
+    const double available = kMemoryShare * static_cast<double>(available_memory_bytes());
+    if (needed <= available) return;
+    const std::string object =
+        estimate.largest_object == kNone
+            ? ""
+            : ", most of them for '" +
+                  scene.objects[static_cast<std::size_t>(estimate.largest_object)].name + "'";
+    char patches[32];
+    std::snprintf(patches, sizeof(patches), "%.3g", estimate.patches);
+    throw SceneError("Max Patch Size " + std::to_string(patch_size) + " m would make " + patches +
+                     " patches" + object + ", which need about " + gibibytes(needed) +
+                     " of memory; " + gibibytes(available) + " are free: raise Max Patch Size");
+}
+
+RefineOptions refine_options(const Options& options, float patch_size, std::size_t surfaces) {
+    RefineOptions refine;
+    refine.link_threshold = options.link_threshold;
+    refine.least_edge = kLeastEdge * patch_size;
+    refine.antiradiance = options.visibility == Visibility::kImplicit;
+    refine.cluster_links =
+        options.visibility == Visibility::kExplicit && surfaces > kClusterSurfaces;
+    refine.most_links = static_cast<std::size_t>(
+        kMemoryShare * static_cast<double>(available_memory_bytes()) / kBytesPerLink);
+    return refine;
+}
+
+// Buried leaves take no part: no link may start or end at one.
+void drop_buried(const PatchTree& tree, std::vector<RawLink>& links) {
+    for (RawLink& l : links) {
+        if (tree.exposed[static_cast<std::size_t>(l.receiver)] <= 0 ||
+            tree.exposed[static_cast<std::size_t>(l.source)] <= 0)
+            l.form_factor = 0;
+    }
+}
+
+void renumber(const std::vector<NodeId>& number, RefinedLinks& refined) {
+    const auto to = [&](NodeId n) { return number[static_cast<std::size_t>(n)]; };
+    for (RawLink& l : refined.links) {
+        l.receiver = to(l.receiver);
+        l.source = to(l.source);
+    }
+    for (LinkedPair& p : refined.pairs) {
+        p.a = to(p.a);
+        p.b = to(p.b);
+    }
+}
+
+}  // namespace
+
+Model build_model(const Scene& scene, const Options& options, Progress& progress) {
+    Stopwatch watch;
+    progress.begin_stage("Building the patch hierarchy", 0.02F, 0.1F);
+    Model model{RayScene(scene), {}, {}, {}, {}};
+    std::vector<Surface> surfaces = lit_surfaces(scene, model.rays, options, progress);
+    if (surfaces.empty()) {
+        model.hierarchy_seconds = watch.lap();
+        return model;
+    }
+    const float patch_size =
+        options.max_patch_size > 0 ? options.max_patch_size : automatic_patch_size(surfaces);
+    check_memory(scene, surfaces, patch_size);
+    const RefineOptions refine = refine_options(options, patch_size, surfaces.size());
+    GrowingTree growing(std::move(surfaces));
+    growing.split_to(patch_size);
+    model.hierarchy_seconds = watch.lap();
+
+    progress.begin_stage("Linking patches", 0.1F, 0.25F);
+    const DirectionBins bins(options.direction_bins);
+    RefinedLinks refined = refine_links(growing, bins, refine, progress);
+    model.links_seconds = watch.lap();
+
+    std::vector<NodeId> number;
+    model.tree = growing.finish(scene, number);
+    renumber(number, refined);
+    model.warnings = find_buried_patches(scene, model.rays, model.tree, progress);
+    drop_buried(model.tree, refined.links);
+    model.hierarchy_seconds += watch.lap();
+
+    const bool explicit_visibility = options.visibility == Visibility::kExplicit;
+    if (explicit_visibility) {
+        progress.begin_stage("Testing visibility", 0.25F, 0.4F);
+        apply_ray_visibility(model.tree, model.rays, options.visibility_rays, refined.pairs,
+                             refined.links, progress);
+        model.visibility_seconds = watch.lap();
+    }
+
+    progress.begin_stage("Sorting links", 0.4F, 0.45F);
+    model.links = build_link_set(model.tree, bins, refined.links, progress);
+    model.links_seconds += watch.lap();
+
+    if (explicit_visibility) {
+        model.row_scale = row_scales(model.tree, model.links, model.rays, progress);
+        model.visibility_seconds += watch.lap();
+    } else {
+        model.row_scale.assign(model.tree.size(), 1);
+    }
+    return model;
+}
+
+}  // namespace antiradiance

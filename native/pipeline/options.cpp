@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/options.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.h"
+
+namespace antiradiance {
+
+namespace {
+
+// Reads and writes one member of Options; enums as their number.
+template <auto Member>
+OptionAccess access_to() {
+    using Value = std::remove_reference_t<decltype(std::declval<Options>().*Member)>;
+    if constexpr (std::is_enum_v<Value>) {
+        return {[](const Options& o) -> OptionValue { return static_cast<int>(o.*Member); },
+                [](Options& o, const OptionValue& v) {
+                    o.*Member = static_cast<Value>(std::get<int>(v));
+                }};
+    } else {
+        return {[](const Options& o) -> OptionValue { return o.*Member; },
+                [](Options& o, const OptionValue& v) { o.*Member = std::get<Value>(v); }};
+    }
+}
+
+std::vector<OptionInfo> make_schema() {
+    std::vector<OptionInfo> schema;
+    schema.push_back(
+        {.name = "visibility",
+         .label = "Visibility",
+         .tooltip = "How surfaces that block light between two patches are found",
+         .type = OptionType::kEnum,
+         .items = {{"IMPLICIT", "Implicit",
+                    "Antiradiance: light passes through surfaces, which send the blocked light "
+                    "onwards as negative light; no visibility test between patches"},
+                   {"EXPLICIT", "Explicit",
+                    "Hierarchical radiosity: every link is tested with rays; more accurate"}},
+         .access = access_to<&Options::visibility>()});
+    schema.push_back(
+        {.name = "direct_light",
+         .label = "Direct Light",
+         .tooltip = "How light reaches the first surface",
+         .type = OptionType::kEnum,
+         .items = {{"EXPLICIT", "Explicit",
+                    "Lamps and emissive meshes by shadow rays; links carry the indirect light"},
+                   {"IMPLICIT", "Implicit",
+                    "Emissive meshes and area lamps emit along links as patches; point, spot and "
+                    "sun lamps stay on shadow rays"}},
+         .access = access_to<&Options::direct_light>()});
+    schema.push_back(
+        {.name = "max_patch_size",
+         .label = "Max Patch Size",
+         .tooltip = "Longest edge of a patch before the links ask for smaller ones; 0 takes it "
+                    "from the size of the scene",
+         .type = OptionType::kFloat,
+         .unit = OptionUnit::kLength,
+         .min = 0,
+         .max = 1000,
+         .soft_min = 0,
+         .soft_max = 5,
+         .precision = 3,
+         .access = access_to<&Options::max_patch_size>()});
+    schema.push_back({.name = "link_threshold",
+                      .label = "Link Threshold",
+                      .tooltip =
+                          "Largest form factor that one link may carry; smaller values make finer "
+                          "patches, more links and less error",
+                      .type = OptionType::kFloat,
+                      .unit = OptionUnit::kFactor,
+                      .min = 0.0005,
+                      .max = 0.5,
+                      .soft_min = 0.003,
+                      .soft_max = 0.1,
+                      .precision = 4,
+                      .access = access_to<&Options::link_threshold>()});
+    schema.push_back(
+        {.name = "direction_bins",
+         .label = "Direction Bins",
+         .tooltip = "Number of directions that antiradiance is kept for; more of them only help "
+                    "with a smaller link threshold",
+         .type = OptionType::kInt,
+         .min = 32,
+         .max = 1024,
+         .soft_min = 64,
+         .soft_max = 512,
+         .access = access_to<&Options::direction_bins>()});
+    schema.push_back({.name = "visibility_rays",
+                      .label = "Visibility Rays",
+                      .tooltip = "Rays that test each link when Visibility is Explicit",
+                      .type = OptionType::kInt,
+                      .min = 1,
+                      .max = 64,
+                      .soft_min = 1,
+                      .soft_max = 16,
+                      .access = access_to<&Options::visibility_rays>()});
+    schema.push_back(
+        {.name = "iterations",
+         .label = "Iterations",
+         .tooltip = "Passes over the links; 0 goes on until the light no longer changes, another "
+                    "number runs that many passes of the paper's scheme",
+         .type = OptionType::kInt,
+         .min = 0,
+         .max = 1000,
+         .soft_min = 0,
+         .soft_max = 32,
+         .access = access_to<&Options::iterations>()});
+    schema.push_back(
+        {.name = "solver",
+         .label = "Solver",
+         .tooltip = "Where the light transport is computed",
+         .type = OptionType::kEnum,
+         .items = {{"AUTO", "Automatic", "OpenGL on a graphics card, else the processor"},
+                   {"OPENGL", "OpenGL", "Compute shaders, on a graphics card or in software"},
+                   {"CPU", "CPU", "The processor's cores"}},
+         .access = access_to<&Options::solver>()});
+    schema.push_back({.name = "display",
+                      .label = "Display",
+                      .tooltip = "How the solution becomes a picture",
+                      .type = OptionType::kEnum,
+                      .items = {{"PATCHES", "Patches",
+                                 "One value of indirect light a patch, without interpolation; "
+                                 "explicit direct light is computed per pixel"}},
+                      .access = access_to<&Options::display>()});
+    schema.push_back({.name = "report_path",
+                      .label = "Report",
+                      .tooltip = "File that a JSON report is written to after each render, also "
+                                 "after a failed one; empty for none",
+                      .type = OptionType::kPath,
+                      .access = access_to<&Options::report_path>()});
+    return schema;
+}
+
+template <typename Range, typename Name>
+std::string list_of(const Range& range, Name name) {
+    std::string text;
+    for (const auto& item : range)
+        text += (text.empty() ? "" : ", ") + std::string(name(item));
+    return text;
+}
+
+double number_of(const OptionValue& value) {
+    if (const auto* i = std::get_if<int>(&value)) return *i;
+    return std::get<float>(value);
+}
+
+[[noreturn]] void wrong_type(const OptionInfo& option, std::string_view wanted) {
+    throw SceneError("Option '" + std::string(option.name) + "' takes " + std::string(wanted));
+}
+
+void set_enum(Options& options, const OptionInfo& option, const OptionValue& value) {
+    const auto* id = std::get_if<std::string>(&value);
+    if (!id) wrong_type(option, "the name of an item");
+    const auto item = std::find_if(option.items.begin(), option.items.end(),
+                                   [&](const EnumItem& i) { return i.id == *id; });
+    if (item == option.items.end()) {
+        throw SceneError("Option '" + std::string(option.name) + "' has no item '" + *id +
+                         "'; choose one of " +
+                         list_of(option.items, [](const EnumItem& i) { return i.id; }));
+    }
+    option.access.set(options, static_cast<int>(item - option.items.begin()));
+}
+
+void set_number(Options& options, const OptionInfo& option, const OptionValue& value) {
+    const bool is_int = option.type == OptionType::kInt;
+    if (!std::holds_alternative<int>(value) && (is_int || !std::holds_alternative<float>(value)))
+        wrong_type(option, is_int ? "a whole number" : "a number");
+    const double number = number_of(value);
+    // A float may round just past a limit that is no binary fraction.
+    const double slack = 1e-6 * std::max(1e-3, option.max);
+    if (!(number >= option.min - slack && number <= option.max + slack)) {
+        throw SceneError("Option '" + std::string(option.name) + "' must lie between " +
+                         std::to_string(option.min) + " and " + std::to_string(option.max) +
+                         ", not " + std::to_string(number));
+    }
+    if (is_int) {
+        option.access.set(options, static_cast<int>(number));
+    } else {
+        option.access.set(options, static_cast<float>(number));
+    }
+}
+
+}  // namespace
+
+std::span<const OptionInfo> option_schema() {
+    static const std::vector<OptionInfo> schema = make_schema();
+    return schema;
+}
+
+void set_option(Options& options, std::string_view name, const OptionValue& value) {
+    const auto schema = option_schema();
+    const auto option = std::find_if(schema.begin(), schema.end(),
+                                     [&](const OptionInfo& o) { return o.name == name; });
+    if (option == schema.end()) {
+        throw SceneError("There is no option '" + std::string(name) + "'; the options are " +
+                         list_of(schema, [](const OptionInfo& o) { return o.name; }));
+    }
+    switch (option->type) {
+        case OptionType::kEnum:
+            set_enum(options, *option, value);
+            return;
+        case OptionType::kInt:
+        case OptionType::kFloat:
+            set_number(options, *option, value);
+            return;
+        case OptionType::kPath:
+            if (!std::holds_alternative<std::string>(value)) wrong_type(*option, "a file path");
+            option->access.set(options, value);
+            return;
+        case OptionType::kBool:
+            if (!std::holds_alternative<bool>(value)) wrong_type(*option, "true or false");
+            option->access.set(options, value);
+            return;
+    }
+}
+
+}  // namespace antiradiance

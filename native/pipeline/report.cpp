@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace antiradiance {
+
+std::string Report::to_json() const {
+    const nlohmann::ordered_json json = {
+        {"patches", patches},
+        {"leaves", leaves},
+        {"links",
+         {{"radiance", links.radiance},
+          {"antiradiance", links.antiradiance},
+          {"total", links.total},
+          {"bytes", links.bytes}}},
+        {"solve",
+         {{"backend", solve.backend},
+          {"renderer", solve.renderer},
+          {"reason", solve.reason},
+          {"iterations", solve.iterations},
+          {"residual", solve.residual},
+          {"converged", solve.converged}}},
+        {"timings_s",
+         {{"sync", timings_s.sync},
+          {"hierarchy", timings_s.hierarchy},
+          {"links", timings_s.links},
+          {"visibility", timings_s.visibility},
+          {"direct", timings_s.direct},
+          {"solve", timings_s.solve},
+          {"display", timings_s.display},
+          {"total", timings_s.total}}},
+        {"peak_memory_bytes", peak_memory_bytes},
+        {"warnings", warnings},
+        {"error", error},
+    };
+    // Object names may hold any bytes; a report is written all the same.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace antiradiance
