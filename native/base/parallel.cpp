@@ -5,17 +5,54 @@
 #include <tbb/partitioner.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace antiradiance {
 
 namespace {
+
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
+
+#ifdef __SANITIZE_THREAD__
+
+// TBB orders its tasks inside a library that the thread sanitizer cannot see into, so each loop
+// would be reported as a race. Plain threads show it the same bodies.
+void run_on_all_cores(std::size_t count, const std::function<void(std::size_t)>& body) {
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr error;
+    std::vector<std::jthread> threads;
+    for (unsigned t = 0; t < std::max(2U, std::thread::hardware_concurrency()); ++t) {
+        threads.emplace_back([&] {
+            try {
+                for (std::size_t i = next++; i < count; i = next++)
+                    body(i);
+            } catch (...) {
+                next = count;
+                const std::scoped_lock lock(mutex);
+                if (!error) error = std::current_exception();
+            }
+        });
+    }
+    threads.clear();  // joins
+    if (error) std::rethrow_exception(error);
 }
+
+#else
+
+void run_on_all_cores(std::size_t count, const std::function<void(std::size_t)>& body) {
+    tbb::parallel_for(std::size_t{0}, count, body, tbb::auto_partitioner{});
+}
+
+#endif
+
+}  // namespace
 
 void parallel_for(std::size_t count, Progress& progress,
                   const std::function<void(std::size_t)>& body, ProgressSpan span) {
@@ -34,14 +71,11 @@ void parallel_for(std::size_t count, Progress& progress,
 
     std::thread loop([&] {
         try {
-            tbb::parallel_for(
-                std::size_t{0}, count,
-                [&](std::size_t i) {
-                    progress.check();
-                    body(i);
-                    done.fetch_add(1, std::memory_order_relaxed);
-                },
-                tbb::auto_partitioner{});
+            run_on_all_cores(count, [&](std::size_t i) {
+                progress.check();
+                body(i);
+                done.fetch_add(1, std::memory_order_relaxed);
+            });
         } catch (...) {
             loop_error = std::current_exception();
         }
