@@ -96,6 +96,13 @@ DeviceInfo query_device() {
     GLint groups = 0;
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &groups);
     info.max_work_groups = static_cast<std::size_t>(groups);
+    std::array<GLint, 4> kibibytes{};
+    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info")) {
+        glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, kibibytes.data());
+    } else if (epoxy_has_gl_extension("GL_ATI_meminfo")) {
+        glGetIntegerv(GL_VBO_FREE_MEMORY_ATI, kibibytes.data());
+    }
+    info.free_bytes = static_cast<std::size_t>(kibibytes[0]) << 10U;
     return info;
 }
 
@@ -217,6 +224,10 @@ std::string GlContext::take_errors() {
 void GlContext::check(const std::string& what) {
     const std::string errors = take_errors();
     if (!errors.empty()) throw GlError(what + ": " + errors);
+}
+
+void GlContext::finish() {
+    glFinish();
 }
 
 void GlContext::forget_errors() {

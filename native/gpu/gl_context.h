@@ -19,6 +19,7 @@ struct DeviceInfo {
     std::size_t max_storage_block_bytes = 0;  // of one SSBO; 128 MiB on llvmpipe
     int max_compute_storage_blocks = 0;       // SSBOs that one compute shader may use
     std::size_t max_work_groups = 0;          // along x, of one dispatch
+    std::size_t free_bytes = 0;               // of device memory at the start; 0: not known
 };
 
 // Current on the thread that made it, from construction to destruction. Other threads get at it
@@ -33,6 +34,9 @@ public:
     GlContext& operator=(const GlContext&) = delete;
 
     [[nodiscard]] const DeviceInfo& device() const { return device_; }
+
+    // Waits until the device has done everything it was given.
+    void finish();
 
     // Throws GlError with the driver's messages if a call since the last check failed.
     void check(const std::string& what);

@@ -73,9 +73,10 @@ public:
     void write(std::span<const T> values, std::size_t first = 0) {
         raw_.write(first * sizeof(T), values.size_bytes(), values.data());
     }
-    [[nodiscard]] std::vector<T> read() const {
-        std::vector<T> values(size_);
-        raw_.read(0, bytes(), values.data());
+    [[nodiscard]] std::vector<T> read() const { return read(0, size_); }
+    [[nodiscard]] std::vector<T> read(std::size_t first, std::size_t count) const {
+        std::vector<T> values(count);
+        raw_.read(first * sizeof(T), count * sizeof(T), values.data());
         return values;
     }
     void clear() { raw_.clear(); }

@@ -19,6 +19,7 @@
 #include <string>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 #include "gpu/gl_context.h"
 
@@ -79,6 +80,38 @@ private:
     bool stop_ = false;
     std::optional<GlContext> context_;  // of thread_
     std::thread thread_;
+};
+
+// Owns a T that holds OpenGL objects: made, used and destroyed on the thread, from any thread.
+template <class T>
+class OnGlThread {
+public:
+    // make(GlContext&) -> std::unique_ptr<T>
+    template <class Make>
+    OnGlThread(std::shared_ptr<GlThread> thread, Make&& make) : thread_(std::move(thread)) {
+        value_ = thread_->run(make);
+    }
+    ~OnGlThread() {
+        if (!value_) return;
+        try {
+            thread_->run([this](GlContext&) { value_.reset(); });
+        } catch (const std::exception&) {
+            // The device failed, which nobody waits to hear any more.
+            (void)value_.release();
+        }
+    }
+    OnGlThread(OnGlThread&&) noexcept = default;
+    OnGlThread& operator=(OnGlThread&&) = delete;
+
+    // work(T&, GlContext&)
+    template <class Work>
+    auto run(Work&& work) {
+        return thread_->run([&](GlContext& context) { return work(*value_, context); });
+    }
+
+private:
+    std::shared_ptr<GlThread> thread_;
+    std::unique_ptr<T> value_;
 };
 
 }  // namespace antiradiance::gpu

@@ -19,11 +19,18 @@ layout(std430, binding = kAntiradianceBinding) readonly buffer Antiradiance { ve
 layout(std430, binding = kAxesBinding) readonly buffer Axes { vec4 axes[]; };
 layout(std430, binding = kSentMomentsBinding) readonly buffer SentMoments { vec4 sent_moments[]; };
 
-// W/sr that a cluster sends along the bin.
-vec3 cluster_intensity(int cluster, uint bin) {
+// W/sr that a cluster sends along the bin; `number` as in Radiance.
+vec3 cluster_intensity(float number, uint bin) {
+    int first = (int(abs(number)) - 1) * kMomentCount;
+    vec3 d = axes[bin].xyz;
+    if (number < 0.0) {
+        vec3 plain = sent_moments[first].rgb * d.x + sent_moments[first + 1].rgb * d.y +
+                     sent_moments[first + 2].rgb * d.z;
+        return max(plain, vec3(0.0));
+    }
     vec4 moments[kMomentCount];
-    for (int k = 0; k < kMomentCount; ++k) moments[k] = sent_moments[cluster * kMomentCount + k];
-    return max(clamped_cosine_sum(moments, axes[bin].xyz), vec3(0.0));
+    for (int k = 0; k < kMomentCount; ++k) moments[k] = sent_moments[first + k];
+    return max(clamped_cosine_sum(moments, d), vec3(0.0));
 }
 #endif
 
@@ -44,7 +51,7 @@ vec3 carried(Link link, uint bin) {
 #endif
     vec4 sent = radiance[link.source];
 #ifdef HAS_CLUSTERS
-    if (sent.w > 0.0) return cluster_intensity(int(sent.w) - 1, bin);
+    if (sent.w != 0.0) return cluster_intensity(sent.w, bin);
 #endif
     return sent.rgb;
 }

@@ -49,7 +49,7 @@ struct Node {
     int parent;       // -1: root
     int subtree_end;  // preorder: the subtree is [node, subtree_end)
     float area;       // m2, sum of the leaves'
-    int cluster;      // index among the clusters; of a patch: -1, a surface's -2 - surface
+    int cluster;      // index among the clusters; of a surface: -2 - its index; of other patches: -1
 };
 
 struct Leaf {

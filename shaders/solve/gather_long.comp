@@ -9,7 +9,7 @@ layout(local_size_x = kWorkGroupSize) in;
 shared vec3 partial_sums[kWorkGroupSize];
 
 void main() {
-    // Work groups are counted exactly, so that every invocation reaches the barriers.
+    if (gl_WorkGroupID.x >= item_count) return;  // the same for the whole work group
     uint segment = first_item + gl_WorkGroupID.x;
     uint lane = gl_LocalInvocationID.x;
     partial_sums[lane] = gather_links(segments[segment], lane, uint(kWorkGroupSize));

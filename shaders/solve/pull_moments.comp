@@ -22,7 +22,7 @@ void main() {
         int cluster = nodes[child].cluster;
         if (cluster >= 0) {
             for (int k = 0; k < kMomentCount; ++k) moments[k] += sent[cluster * kMomentCount + k];
-        } else {
+        } else if (cluster < -1) {  // lamps link by themselves
             vec3 power = nodes[child].area * radiance[child].rgb;
             float basis[kMomentCount];
             direction_moments(surfaces[-2 - cluster].normal, basis);

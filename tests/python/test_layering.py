@@ -44,7 +44,10 @@ def test_includes(path):
     if OPENGL_SIBLING.search(path.name):
         allowed = allowed | {"gpu"}
     for bracket, target in includes(path):
-        if bracket == '"':
+        if bracket == '"' and target.startswith("shaders/shared/"):
+            assert OPENGL_SIBLING.search(path.name), "only *_gl.h shares structs with shaders"
+            assert (NATIVE.parent / target).is_file()
+        elif bracket == '"':
             assert (NATIVE / target).is_file(), f'"{target}" is no file of native/'
             assert target.split("/")[0] in allowed, f"{folder} must not include {target}"
         elif target.startswith("pybind11/") or target == "Python.h":
