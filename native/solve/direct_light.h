@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/progress.h"
@@ -12,6 +13,13 @@
 #include "solve/solve_options.h"
 
 namespace antiradiance {
+
+// A point that receives light.
+struct SurfacePoint {
+    vec3 position;        // m
+    vec3 normal;          // unit, of the geometry, on the side that is lit
+    vec3 shading_normal;  // unit; sets the cosine, while `normal` sets the horizon
+};
 
 class DirectLight {
 public:
@@ -23,19 +31,20 @@ public:
     // False: irradiance() is 0 everywhere.
     [[nodiscard]] bool any() const;
 
-    // Irradiance, W/m2, at a surface point seen from the side of `normal` (unit). About `samples`
-    // shadow rays for each light (emissive polygons beyond a count are chosen by their power).
-    // Deterministic in `seed`: index `sample_index` of a pixel's or a patch's samples continues one
-    // low-discrepancy sequence. From any thread.
-    [[nodiscard]] vec3 irradiance(const vec3& point, const vec3& normal, int samples,
-                                  std::uint32_t sample_index, std::uint32_t seed) const;
+    // Mean irradiance, W/m2, over points of one surface that lie close together (those of a pixel).
+    // Takes about 16 shadow rays for each light, up to `max_rays` (16..1024) where its shadow edge
+    // crosses the points; a large number of lights shares them by the light they can bring.
+    // Deterministic in `seed`. From any thread.
+    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points, int max_rays,
+                                  std::uint32_t seed) const;
 
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes
     [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree,
                                                     Progress& progress) const;
 
+    struct Impl;  // direct_light_estimate.h
+
 private:
-    struct Impl;
     std::unique_ptr<Impl> impl_;
 };
 

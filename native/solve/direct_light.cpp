@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/direct_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "solve/direct_light_estimate.h"
+
+namespace antiradiance {
+
+DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode)
+    : impl_(std::make_unique<Impl>(Impl{scene, rays, {}, {}, {}, {}})) {
+    const float epsilon = rays.epsilon();
+    std::vector<EmitterPtr>& emitters = impl_->emitters;
+    for (const Lamp& lamp : scene.lamps) {
+        if (mode == DirectLightMode::kImplicit && lamp.type == LampType::kArea) continue;
+        if (EmitterPtr emitter = make_lamp_emitter(lamp, epsilon)) {
+            emitters.push_back(std::move(emitter));
+        }
+    }
+    if (mode == DirectLightMode::kExplicit) {
+        for (EmitterPtr& emitter : make_mesh_emitters(scene, epsilon)) {
+            emitters.push_back(std::move(emitter));
+        }
+    }
+    std::vector<EmitterBounds> bounds;
+    for (std::size_t i = 0; i < emitters.size(); ++i) {
+        const auto index = static_cast<std::int32_t>(i);
+        if (emitters[i]->at_infinity()) {
+            impl_->always.push_back(index);
+        } else {
+            impl_->in_tree.push_back(index);
+            bounds.push_back(emitters[i]->bounds());
+        }
+    }
+    if (bounds.size() <= kMostEmittersEach) {
+        impl_->always.insert(impl_->always.end(), impl_->in_tree.begin(), impl_->in_tree.end());
+        impl_->in_tree.clear();
+    } else {
+        impl_->tree = EmitterTree(bounds);
+    }
+}
+
+DirectLight::~DirectLight() = default;
+
+bool DirectLight::any() const {
+    return !impl_->emitters.empty();
+}
+
+vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int max_rays,
+                             std::uint32_t seed) const {
+    if (points.empty() || !any()) return vec3(0);
+    IrradianceEstimate estimate(*impl_, points, seed);
+    const auto count = static_cast<int>(points.size());
+    int passes = (kFirstRays + count - 1) / count;
+    int rays = 0;
+    while (passes > 0) {
+        for (int i = 0; i < passes; ++i)
+            estimate.add(points);
+        rays += passes * count;
+        if (rays >= max_rays || !estimate.refine(kPixelTolerance)) break;
+        // Four times as many halve the error of rays without structure, and do better here.
+        passes = std::min(3 * passes, (max_rays - rays + count - 1) / count);
+    }
+    return estimate.mean();
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/direct_light_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+
+namespace antiradiance {
+
+namespace {
+
+// Errors are measured as if rays were independent. Points of a low-discrepancy sequence do better:
+// half of it is still on the safe side for a shadow edge from 16 rays on.
+constexpr double kSequenceGain = 0.5;
+
+ReceiverBounds bounds_of(std::span<const SurfacePoint> points) {
+    ReceiverBounds b;
+    for (const SurfacePoint& p : points) {
+        b.center += p.position / static_cast<float>(points.size());
+        b.normal += p.shading_normal;
+    }
+    const float length = glm::length(b.normal);
+    b.normal = length > 0 ? b.normal / length : points[0].shading_normal;
+    for (const SurfacePoint& p : points) {
+        b.radius = std::max(b.radius, glm::distance(p.position, b.center));
+    }
+    return b;
+}
+
+}  // namespace
+
+IrradianceEstimate::IrradianceEstimate(const DirectLight::Impl& light,
+                                       std::span<const SurfacePoint> points, std::uint32_t seed)
+    : light_(light), seed_(seed) {
+    sums_.reserve(light.always.size());
+    for (const std::int32_t emitter : light.always)
+        sums_.push_back({.emitter = emitter});
+    if (light.in_tree.empty()) return;
+    receivers_ = bounds_of(points);
+    chosen_active_ = true;
+    light.tree.choose(receivers_, kChoices, 0.5F, choices_);
+    for (const EmitterChoice& choice : choices_) {
+        if (choice.probability * kChoices < kOwnRays) continue;
+        sums_.push_back({.emitter = light.in_tree[static_cast<std::size_t>(choice.emitter)]});
+    }
+}
+
+vec3 IrradianceEstimate::arriving(const SurfacePoint& point, const LightSample& sample) const {
+    if (sample.weight <= 0 || max_component(sample.radiance) <= 0) return vec3(0);
+    if (glm::dot(sample.direction, point.normal) <= 0) return vec3(0);
+    const float epsilon = light_.rays.epsilon();
+    const vec3 origin = point.position + point.normal * epsilon;
+    const bool blocked = sample.distance >= RayScene::kInfinity
+                             ? !light_.rays.escapes(origin, sample.direction)
+                             : light_.rays.occluded(origin, sample.target);
+    return blocked ? vec3(0) : sample.radiance;
+}
+
+void IrradianceEstimate::add_own(Sum& sum, std::span<const SurfacePoint> points) {
+    const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(sum.emitter)];
+    const std::uint32_t seed = hash_combine(seed_, static_cast<std::uint32_t>(sum.emitter));
+    for (const SurfacePoint& point : points) {
+        const std::uint32_t index = sum.rays++;
+        const float unshadowed = emitter.unshadowed(point);
+        if (unshadowed <= 0) continue;
+        sum.unshadowed += unshadowed;
+        sum.unshadowed2 += static_cast<double>(unshadowed) * unshadowed;
+        const LightSample sample = emitter.sample(point, r2_sample(index, seed));
+        const vec3 radiance = arriving(point, sample);
+        const double y = static_cast<double>(sample.weight) * luminance(radiance);
+        const double w = sample.weight;
+        sum.weight += w;
+        sum.arrived += sample.weight * radiance;
+        sum.yy += y * y;
+        sum.yw += y * w;
+        sum.ww += w * w;
+    }
+}
+
+void IrradianceEstimate::add_chosen(std::span<const SurfacePoint> points) {
+    const std::uint32_t pass = chosen_passes_++;
+    const float offset = r2_sample(pass, seed_ ^ 0x9d2c5680U).x;
+    light_.tree.choose(receivers_, kChoices, offset, choices_);
+    vec3 sum(0);
+    double squares = 0;
+    double mean = 0;
+    const std::uint32_t seed = hash_combine(seed_, 0x7f4a7c15U);
+    for (const EmitterChoice& choice : choices_) {
+        if (choice.probability * kChoices >= kOwnRays) continue;
+        const auto index = light_.in_tree[static_cast<std::size_t>(choice.emitter)];
+        const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(index)];
+        for (std::uint32_t i = choice.begin; i < choice.end; ++i) {
+            // A stride that is coprime to every number of points: neighbours in the tree are lit
+            // from different points.
+            const std::uint32_t turn = i * 37U + pass;
+            const SurfacePoint& point = points[turn % points.size()];
+            if (emitter.unshadowed(point) <= 0) continue;
+            const LightSample s = emitter.sample(point, r2_sample(pass * kChoices + i, seed));
+            const vec3 e = arriving(point, s) * (s.weight / static_cast<float>(choice.probability));
+            sum += e;
+            const double y = luminance(e);
+            mean += y / kChoices;
+            squares += y * y / kChoices;
+        }
+    }
+    chosen_ += sum / static_cast<float>(kChoices);
+    chosen_var_ += std::max(0.0, squares - mean * mean) / kChoices;
+}
+
+void IrradianceEstimate::add(std::span<const SurfacePoint> points) {
+    for (Sum& sum : sums_) {
+        if (sum.active) add_own(sum, points);
+    }
+    if (chosen_active_) add_chosen(points);
+}
+
+vec3 IrradianceEstimate::mean_of(const Sum& sum) {
+    if (sum.weight <= 0 || sum.rays == 0) return vec3(0);
+    return sum.arrived * static_cast<float>(sum.unshadowed / sum.rays / sum.weight);
+}
+
+// Standard error of mean_of()'s luminance.
+double IrradianceEstimate::error_of(const Sum& sum) {
+    if (sum.weight <= 0 || sum.rays == 0) return 0;
+    const double mean = sum.unshadowed / sum.rays;
+    const double ratio = luminance(sum.arrived) / sum.weight;
+    const double residual = sum.yy - 2 * ratio * sum.yw + ratio * ratio * sum.ww;
+    const double shadow = mean * std::sqrt(std::max(0.0, residual)) / sum.weight;
+    // The unshadowed part varies smoothly over a patch: with one point a cell, the error falls with
+    // the number of points, not with its root.
+    const double variance = std::max(0.0, sum.unshadowed2 / sum.rays - mean * mean);
+    return kSequenceGain * shadow + ratio * std::sqrt(variance) / sum.rays;
+}
+
+bool IrradianceEstimate::refine(float tolerance) {
+    const double allowed = tolerance * luminance(mean());
+    bool any = false;
+    for (Sum& sum : sums_) {
+        sum.active = sum.active && error_of(sum) > allowed;
+        any = any || sum.active;
+    }
+    if (chosen_active_) {
+        const double passes = chosen_passes_;
+        chosen_active_ = kSequenceGain * std::sqrt(chosen_var_) / passes > allowed;
+        any = any || chosen_active_;
+    }
+    return any;
+}
+
+vec3 IrradianceEstimate::mean() const {
+    vec3 total(0);
+    for (const Sum& sum : sums_)
+        total += mean_of(sum);
+    if (chosen_passes_ > 0) total += chosen_ / static_cast<float>(chosen_passes_);
+    return total;
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The running estimate of the mean direct irradiance over a few points of one surface.
+//
+// Each emitter's estimate is the ratio: exact unshadowed irradiance x (sum of the samples' light
+// that arrives) / (sum of the samples' light without occluders), pooled over all points (Heitz,
+// Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", 2018). Where
+// nothing is in the way it has no noise; in a penumbra its bias is O(1 / rays), far below its noise
+// there.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solve/direct_light.h"
+#include "solve/direct_light_emitter.h"
+#include "solve/direct_light_tree.h"
+
+namespace antiradiance {
+
+// With no more emitters than this, each gets its own rays.
+inline constexpr std::size_t kMostEmittersEach = 8;
+// An emitter that would be chosen this often in one pass gets its own rays too.
+inline constexpr double kOwnRays = 4;
+// Choices among many emitters in one pass, divided over the points.
+inline constexpr std::uint32_t kChoices = 64;
+// Rays for each emitter before the first look at the error.
+inline constexpr int kFirstRays = 16;
+// Standard error at which rays end, relative to the irradiance: an eye sees about 0.02.
+inline constexpr float kPixelTolerance = 0.015F;
+inline constexpr float kLeafTolerance = 0.01F;
+
+struct DirectLight::Impl {
+    const Scene& scene;
+    const RayScene& rays;
+    std::vector<EmitterPtr> emitters;
+    std::vector<std::int32_t> always;   // into emitters: each gets its own rays
+    std::vector<std::int32_t> in_tree;  // into emitters: the tree's indices
+    EmitterTree tree;
+};
+
+class IrradianceEstimate {
+public:
+    // `points`: where the receivers lie; the later ones of add() may be others close by.
+    IrradianceEstimate(const DirectLight::Impl& light, std::span<const SurfacePoint> points,
+                       std::uint32_t seed);
+
+    // One shadow ray to each emitter that is still active from each point.
+    void add(std::span<const SurfacePoint> points);
+
+    // Leaves active only those emitters whose error matters; false: none does.
+    bool refine(float tolerance);
+
+    [[nodiscard]] vec3 mean() const;  // W/m2
+
+private:
+    struct Sum {
+        std::int32_t emitter = kNone;
+        bool active = true;
+        std::uint32_t rays = 0;
+        double unshadowed = 0;   // sum over rays
+        double unshadowed2 = 0;  // sum of squares
+        double weight = 0;       // sum
+        vec3 arrived{0};         // sum of weight x radiance that arrives
+        // Sums for the ratio's error: y = weight x luminance that arrives, w = weight.
+        double yy = 0, yw = 0, ww = 0;
+    };
+
+    void add_own(Sum& sum, std::span<const SurfacePoint> points);
+    void add_chosen(std::span<const SurfacePoint> points);
+    [[nodiscard]] vec3 arriving(const SurfacePoint& point, const LightSample& sample) const;
+    [[nodiscard]] static vec3 mean_of(const Sum& sum);
+    [[nodiscard]] static double error_of(const Sum& sum);
+
+    const DirectLight::Impl& light_;
+    std::uint32_t seed_;
+    std::vector<Sum> sums_;
+    ReceiverBounds receivers_;
+    // Emitters chosen at random, per pass over kChoices samples.
+    bool chosen_active_ = false;
+    std::uint32_t chosen_passes_ = 0;
+    vec3 chosen_{0};         // sum over passes, W/m2
+    double chosen_var_ = 0;  // sum over passes of the variance of a pass's mean
+    std::vector<EmitterChoice> choices_;
+};
+
+}  // namespace antiradiance

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Direct light of every leaf patch.
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "solve/direct_light.h"
+#include "solve/direct_light_estimate.h"
+
+namespace antiradiance {
+
+namespace {
+
+constexpr std::uint32_t kStrata = 16;  // of PatchTree::exposed_mask, 4 x 4
+constexpr int kMostRays = 256;         // for each emitter and leaf
+constexpr std::size_t kBlock = 16;     // leaves; a few ms
+
+// One point in every exposed stratum of a leaf; `pass` moves it inside its stratum.
+void leaf_points(const PatchTree& tree, NodeId leaf, std::uint32_t pass,
+                 std::vector<SurfacePoint>& points) {
+    points.clear();
+    const auto n = static_cast<std::size_t>(leaf);
+    const std::uint32_t mask = tree.exposed_mask.empty() ? 0xffffU : tree.exposed_mask[n];
+    const std::uint32_t seed = hash_u32(static_cast<std::uint32_t>(leaf));
+    for (std::uint32_t i = 0; i < kStrata; ++i) {
+        // Another order each pass, so that a stratum meets every part of a lamp.
+        const std::uint32_t stratum = i ^ (hash_combine(seed, pass) % kStrata);
+        if ((mask & (1U << stratum)) == 0) continue;
+        const vec2 jitter = r2_sample(pass, hash_combine(seed, stratum));
+        const vec2 cell(static_cast<float>(stratum % 4), static_cast<float>(stratum / 4));
+        const vec3 normal = tree.normal[n];
+        points.push_back({tree.patch_point(leaf, (cell + jitter) / 4.0F), normal, normal});
+    }
+}
+
+vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId leaf,
+               std::vector<SurfacePoint>& points) {
+    leaf_points(tree, leaf, 0, points);
+    if (points.empty()) return vec3(0);
+    const std::uint32_t seed = hash_combine(0x51ed270bU, static_cast<std::uint32_t>(leaf));
+    IrradianceEstimate estimate(light, points, seed);
+    std::uint32_t pass = 0;
+    for (int rays = 0, wanted = kFirstRays; rays < kMostRays; wanted *= 4) {
+        while (rays < std::min(wanted, kMostRays)) {
+            leaf_points(tree, leaf, pass++, points);
+            estimate.add(points);
+            rays += static_cast<int>(points.size());
+        }
+        if (!estimate.refine(kLeafTolerance)) break;
+    }
+    return estimate.mean();
+}
+
+}  // namespace
+
+std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& progress) const {
+    std::vector<vec3> irradiance(tree.size(), vec3(0));
+    if (!any()) return irradiance;
+    parallel_for_blocks(
+        tree.leaves.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+            std::vector<SurfacePoint> points;
+            for (std::size_t i = begin; i < end; ++i) {
+                progress.check();
+                const NodeId leaf = tree.leaves[i];
+                if (tree.is_cluster(leaf) || tree.emits_only(leaf)) continue;
+                irradiance[static_cast<std::size_t>(leaf)] = leaf_mean(*impl_, tree, leaf, points);
+            }
+        });
+    return irradiance;
+}
+
+}  // namespace antiradiance
