@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the solution to a picture.
+// From the solution to a picture: a G-buffer with direct light per pixel, then the indirect light
+// by one of the display modes. A new mode is a function and a row of the table in display.cpp.
 #pragma once
 
 #include <span>
@@ -14,22 +15,23 @@
 namespace antiradiance {
 
 struct Picture {
-    int width = 0, height = 0;    // pixels of the camera's border
-    std::vector<vec4> combined;   // #pixels, linear Rec.709, premultiplied, row 0 below
-    std::vector<float> depth;     // #pixels, m along the view axis as in Blender's Z pass; 1e10: nothing
-    std::vector<vec3> normal;     // #pixels, world space, unit or 0
+    int width = 0, height = 0;   // pixels of the camera's border
+    std::vector<vec4> combined;  // #pixels, linear Rec.709, premultiplied, row 0 below
+    std::vector<float> depth;    // #pixels, m along the view axis as in Blender's Z pass; 1e10:
+                                 // nothing
+    std::vector<vec3> normal;    // #pixels, world space, unit or 0
 };
 
 struct DisplayInput {
-    const Scene& scene;
+    const Scene& scene;  // has a camera
     const RayScene& rays;
     const PatchTree& tree;
-    const DirectLight& direct;            // evaluated per pixel
-    std::span<const vec3> irradiance;     // #nodes, W/m2 that links brought to each leaf
-    bool film_transparent = false;        // no background, alpha 0 where nothing is seen
-    int samples_per_axis = 4;             // anti-aliasing, n x n a pixel
+    const DirectLight& direct;         // evaluated per pixel
+    std::span<const vec3> irradiance;  // #nodes, W/m2 that links brought to each leaf
+    bool film_transparent = false;     // no background, alpha 0 where nothing is seen
+    int samples_per_axis = 4;          // anti-aliasing, n x n a pixel
 };
 
-[[nodiscard]] Picture display_patches(const DisplayInput& input, Progress& progress);
+[[nodiscard]] Picture make_picture(const DisplayInput& input, DisplayMode mode, Progress& progress);
 
 }  // namespace antiradiance

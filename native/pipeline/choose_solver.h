@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "solve/solver.h"
 
 namespace antiradiance {
 
-struct ChosenSolver {
-    std::unique_ptr<Solver> solver;
-    std::string reason;  // for the report
+struct SolverRun {
+    Solution solution;
+    std::string reason;   // why this back end; for the report
+    std::string warning;  // empty, or why another one had to take over
 };
 
-// AUTO takes OpenGL on a hardware renderer, else the CPU. Throws std::runtime_error when OPENGL is
-// asked for and can't be had.
-ChosenSolver choose_solver(SolverChoice choice);
+// Solves on the back end of the artist's choice. AUTO takes OpenGL on a graphics card; a software
+// renderer shares the cores with the CPU solver and is slower there (tests/bench), so then, and
+// when the device fails, the CPU solves. Throws std::runtime_error when OPENGL is asked for and
+// can't be had or fails.
+SolverRun solve_transport(SolverChoice choice, const TransportProblem& problem,
+                          const SolveOptions& options, Progress& progress);
 
 }  // namespace antiradiance

@@ -57,7 +57,7 @@ struct OptionInfo {
     double min = 0, max = 0;            // hard limits
     double soft_min = 0, soft_max = 0;  // of a slider
     int precision = 3;                  // digits behind the point, floats
-    std::vector<EnumItem> items;        // enums; an item's index is its value
+    std::vector<EnumItem> items{};      // enums; an item's index is its value
     OptionAccess access;
 };
 

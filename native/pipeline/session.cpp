@@ -107,14 +107,16 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
         const std::vector<vec3> source =
             link_sources(model.tree, leaf_direct, options.direct_light);
         const std::vector<vec3> albedo = exposed_albedo(model.tree);
-        ChosenSolver chosen = choose_solver(options.solver);
         SolveOptions solve;
         solve.iterations = options.iterations;
-        Solution solution = chosen.solver->solve(
-            {model.tree, model.links, source, albedo, model.row_scale}, solve, progress);
+        SolverRun run = solve_transport(options.solver,
+                                        {model.tree, model.links, source, albedo, model.row_scale},
+                                        solve, progress);
+        Solution& solution = run.solution;
+        if (!run.warning.empty()) report.warnings.push_back(run.warning);
         report.solve = {solution.backend,
                         solution.renderer,
-                        chosen.reason,
+                        run.reason,
                         solution.iterations,
                         static_cast<double>(solution.residual),
                         solution.converged};
@@ -131,8 +133,9 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
     progress.begin_stage("Display", 0.75F, 1);
     Picture picture;
     if (scene.has_camera) {
-        picture = display_patches(
-            {scene, model.rays, model.tree, direct, irradiance, film_transparent}, progress);
+        picture =
+            make_picture({scene, model.rays, model.tree, direct, irradiance, film_transparent},
+                         options.display, progress);
     }
     report.timings_s.display = watch.lap();
     return picture;

@@ -12,10 +12,10 @@ namespace antiradiance {
 
 struct Texture {
     std::string name;
-    int width = 0;   // pixels
-    int height = 0;  // pixels
-    std::vector<vec4> pixels;   // width * height, linear Rec.709, row 0 is v = 0
-    std::string missing_path;   // not empty: the file that could not be read
+    int width = 0;             // pixels
+    int height = 0;            // pixels
+    std::vector<vec4> pixels;  // width * height, linear Rec.709, row 0 is v = 0
+    std::string missing_path;  // not empty: the file that could not be read
 
     // Bilinear, repeating; uv (0,0) is the lower left corner of pixel (0,0).
     [[nodiscard]] vec4 sample(const vec2& uv) const;
@@ -24,8 +24,8 @@ struct Texture {
 // A diffuse surface, both sides alike. A texture multiplies its constant.
 struct Material {
     std::string name;
-    vec3 albedo{0.8F};         // reflectance, 0..1
-    vec3 emission{0};          // emitted radiance, W/(m2 sr)
+    vec3 albedo{0.8F};             // reflectance, 0..1
+    vec3 emission{0};              // emitted radiance, W/(m2 sr)
     int albedo_texture = kNone;    // index into Scene::textures
     int emission_texture = kNone;  // index into Scene::textures
     [[nodiscard]] bool emits() const { return max_component(emission) > 0; }
@@ -47,10 +47,10 @@ struct Lamp {
     // Cycles of Blender 3.4 multiplies a spot's intensity by the cosine to its axis and ignores a
     // non-uniform scale (measured); newer ones do neither.
     bool spot_cosine = false;
-    float sun_angle = 0;   // rad, full angle of the disk
+    float sun_angle = 0;  // rad, full angle of the disk
     AreaShape shape = AreaShape::kRectangle;
-    vec2 size{1};          // m, full extents along local x and y of an area lamp
-    float spread = kPi;    // rad, full angle of an area lamp's cone; pi = diffuse
+    vec2 size{1};        // m, full extents along local x and y of an area lamp
+    float spread = kPi;  // rad, full angle of an area lamp's cone; pi = diffuse
     bool visible_to_camera = false;
 };
 
@@ -61,8 +61,8 @@ struct Camera {
     CameraType type = CameraType::kPerspective;
     // The view frame on the plane at distance 1 (perspective) or in metres (orthographic).
     float left = -0.5F, right = 0.5F, bottom = -0.5F, top = 0.5F;
-    float clip_start = 0.01F;  // m, along the view axis
-    float clip_end = 1000;     // m, along the view axis
+    float clip_start = 0.01F;            // m, along the view axis
+    float clip_end = 1000;               // m, along the view axis
     int width = 0, height = 0;           // pixels of the full frame
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels of it to render, [x0,x1) x [y0,y1), row 0 below
 };
@@ -77,8 +77,9 @@ struct Scene {
     // #vertices
     std::vector<vec3> positions;  // m
     // #triangles
-    std::vector<uvec3> triangles;                 // into positions; counter-clockwise from its front
-    std::vector<std::int32_t> triangle_polygon;   // polygon of the mesh it was cut from; unique in the scene
+    std::vector<uvec3> triangles;  // into positions; counter-clockwise from its front
+    std::vector<std::int32_t>
+        triangle_polygon;  // polygon of the mesh it was cut from; unique in the scene
     std::vector<std::int32_t> triangle_material;  // into materials
     std::vector<std::int32_t> triangle_object;    // into objects
     std::vector<std::array<vec2, 3>> uv;          // texture coordinates of the corners
@@ -116,11 +117,11 @@ struct MeshInput {
     mat4 to_world{1};
     const uvec3* triangles = nullptr;  // #triangles
     std::size_t triangle_count = 0;
-    const std::int32_t* triangle_polygon = nullptr;    // #triangles, or null: each its own
-    const std::int32_t* triangle_material = nullptr;   // #triangles, slots, or null: slot 0
-    std::vector<std::int32_t> slot_materials;          // slot -> Scene::materials
-    const std::array<vec2, 3>* uv = nullptr;           // #triangles, or null
-    const std::array<vec3, 3>* normals = nullptr;      // #triangles, object space, or null: flat
+    const std::int32_t* triangle_polygon = nullptr;   // #triangles, or null: each its own
+    const std::int32_t* triangle_material = nullptr;  // #triangles, slots, or null: slot 0
+    std::vector<std::int32_t> slot_materials;         // slot -> Scene::materials
+    const std::array<vec2, 3>* uv = nullptr;          // #triangles, or null
+    const std::array<vec3, 3>* normals = nullptr;     // #triangles, object space, or null: flat
 };
 
 // Appends the mesh in world space. A mirroring matrix also flips the winding, so that fronts stay

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "display/gbuffer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "display/camera_rays.h"
+#include "display/visible_lamps.h"
+
+namespace antiradiance {
+
+namespace {
+
+constexpr float kNoDepth = 1e10F;     // Blender's value for nothing
+constexpr std::size_t kBlock = 32;    // pixels; some ms
+constexpr int kMostDirectRays = 256;  // for each light and fragment
+
+// A fragment while its pixel's samples come in.
+struct OpenFragment {
+    std::int64_t key = 0;  // the leaf, or the triangle side where there is none
+    NodeId leaf = kNone;
+    vec3 albedo{0};    // sum over samples
+    vec3 emission{0};  // sum over samples
+    std::vector<SurfacePoint> points;
+};
+
+class PixelSampler {
+public:
+    PixelSampler(const GBufferInput& input, GBuffer& target)
+        : in_(input),
+          out_(target),
+          camera_(input.scene.camera),
+          rays_(input.scene.camera),
+          lamps_(input.scene.lamps),
+          samples_(input.samples_per_axis * input.samples_per_axis) {}
+
+    // Appends the fragments of a pixel and fills its place in the images.
+    void sample(std::size_t pixel, std::vector<Fragment>& fragments) {
+        open_count_ = 0;
+        pixel_ = pixel;
+        vec4 background(0);
+        float centre_distance = 2;
+        for (int s = 0; s < samples_; ++s) {
+            const vec2 offset = sample_offset(s);
+            const CameraRay ray = rays_.at(corner() + offset);
+            const RayHit hit = in_.rays.intersect(ray.origin, ray.direction, ray.near, ray.far);
+            if (hit.hit()) {
+                add_surface(ray, hit);
+            } else {
+                background += beyond(ray);
+            }
+            const float from_centre = glm::distance(offset, vec2(0.5F));
+            if (from_centre < centre_distance) {
+                centre_distance = from_centre;
+                out_.depth[pixel] = hit.hit() ? hit.distance * ray.axial : kNoDepth;
+            }
+        }
+        out_.background[pixel] = background / static_cast<float>(samples_);
+        vec3 normal(0);
+        for (std::size_t i = 0; i < open_count_; ++i) {
+            fragments.push_back(close(open_[i]));
+            normal += fragments.back().shading_normal * fragments.back().coverage;
+        }
+        const float length = glm::length(normal);
+        out_.normal[pixel] = length > 0 ? normal / length : vec3(0);
+    }
+
+private:
+    // Lower left corner of the pixel in the full frame.
+    [[nodiscard]] vec2 corner() const {
+        const auto width = static_cast<std::size_t>(out_.width);
+        return {static_cast<float>(camera_.x0) + static_cast<float>(pixel_ % width),
+                static_cast<float>(camera_.y0) + static_cast<float>(pixel_ / width)};
+    }
+
+    [[nodiscard]] vec2 sample_offset(int s) const {
+        const int n = in_.samples_per_axis;
+        const vec2 jitter =
+            r2_sample(static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(pixel_));
+        return (vec2(s % n, s / n) + jitter) / static_cast<float>(n);
+    }
+
+    // What a ray sees that meets no surface.
+    [[nodiscard]] vec4 beyond(const CameraRay& ray) const {
+        if (lamps_.any()) {
+            const vec3 lamp = lamps_.radiance(ray, RayScene::kInfinity);
+            if (max_component(lamp) > 0) return {lamp, 1};
+        }
+        return in_.film_transparent ? vec4(0) : vec4(in_.scene.background, 1);
+    }
+
+    void add_surface(const CameraRay& ray, const RayHit& hit) {
+        const Scene& scene = in_.scene;
+        const std::array<vec3, 3> c = scene.corners(hit.triangle);
+        const vec3 point = c[0] * (1 - hit.barycentric.x - hit.barycentric.y) +
+                           c[1] * hit.barycentric.x + c[2] * hit.barycentric.y;
+        const float side = hit.back_side ? -1.0F : 1.0F;
+        const vec3 normal = side * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+        const NodeId leaf = in_.tree.lookup(hit.triangle, hit.back_side, point);
+        OpenFragment& fragment = find(
+            leaf != kNone ? leaf : -1 - (2 * std::int64_t{hit.triangle} + (hit.back_side ? 1 : 0)));
+        fragment.leaf = leaf;
+        fragment.points.push_back(
+            {point, normal, side * scene.shading_normal_at(hit.triangle, hit.barycentric)});
+        if (lamps_.any()) {
+            const vec3 lamp = lamps_.radiance(ray, hit.distance);
+            if (max_component(lamp) > 0) {  // it hides the surface
+                fragment.emission += lamp;
+                return;
+            }
+        }
+        fragment.albedo += scene.albedo_at(hit.triangle, hit.barycentric);
+        fragment.emission += scene.emission_at(hit.triangle, hit.barycentric);
+    }
+
+    OpenFragment& find(std::int64_t key) {
+        for (std::size_t i = 0; i < open_count_; ++i) {
+            if (open_[i].key == key) return open_[i];
+        }
+        if (open_count_ == open_.size()) open_.emplace_back();
+        OpenFragment& fragment = open_[open_count_++];
+        fragment.key = key;
+        fragment.albedo = fragment.emission = vec3(0);
+        fragment.points.clear();
+        return fragment;
+    }
+
+    [[nodiscard]] Fragment close(const OpenFragment& open) const {
+        const auto count = static_cast<float>(open.points.size());
+        Fragment f;
+        f.pixel = static_cast<std::uint32_t>(pixel_);
+        f.leaf = open.leaf;
+        f.coverage = count / static_cast<float>(samples_);
+        f.normal = open.points.front().normal;
+        for (const SurfacePoint& p : open.points) {
+            f.position += p.position / count;
+            f.shading_normal += p.shading_normal;
+        }
+        const float length = glm::length(f.shading_normal);
+        f.shading_normal = length > 0 ? f.shading_normal / length : f.normal;
+        f.albedo = open.albedo / count;
+        f.light = open.emission / count;
+        if (max_component(f.albedo) > 0) {
+            f.light += f.albedo * kInvPi *
+                       in_.direct.irradiance(open.points, kMostDirectRays,
+                                             hash_u32(static_cast<std::uint32_t>(pixel_)));
+        }
+        return f;
+    }
+
+    const GBufferInput& in_;
+    GBuffer& out_;
+    const Camera& camera_;
+    CameraRays rays_;
+    VisibleLamps lamps_;
+    int samples_;
+    std::size_t pixel_ = 0;
+    std::vector<OpenFragment> open_;  // the first open_count_ are of this pixel
+    std::size_t open_count_ = 0;
+};
+
+}  // namespace
+
+GBuffer make_gbuffer(const GBufferInput& input, Progress& progress, ProgressSpan span) {
+    const Camera& camera = input.scene.camera;
+    GBuffer buffer;
+    buffer.width = camera.x1 - camera.x0;
+    buffer.height = camera.y1 - camera.y0;
+    const std::size_t pixels =
+        static_cast<std::size_t>(buffer.width) * static_cast<std::size_t>(buffer.height);
+    buffer.background.resize(pixels);
+    buffer.depth.resize(pixels);
+    buffer.normal.resize(pixels);
+
+    std::vector<std::vector<Fragment>> blocks((pixels + kBlock - 1) / kBlock);
+    parallel_for_blocks(
+        pixels, kBlock, progress,
+        [&](std::size_t begin, std::size_t end) {
+            PixelSampler sampler(input, buffer);
+            std::vector<Fragment>& fragments = blocks[begin / kBlock];
+            for (std::size_t pixel = begin; pixel < end; ++pixel) {
+                progress.check();
+                sampler.sample(pixel, fragments);
+            }
+        },
+        span);
+    std::size_t count = 0;
+    for (const auto& block : blocks)
+        count += block.size();
+    buffer.fragments.reserve(count);
+    for (auto& block : blocks) {
+        buffer.fragments.insert(buffer.fragments.end(), block.begin(), block.end());
+        block = {};
+    }
+    return buffer;
+}
+
+}  // namespace antiradiance
