@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
+from multilayer import read_multilayer
 
 INSIDE = pathlib.Path(__file__).parent / "inside"
 
@@ -38,27 +39,6 @@ class Rendered:
     @property
     def combined(self):
         return self.passes["Combined"]
-
-
-def read_multilayer(path):
-    """{"Combined": (h, w, 4), "Depth": (h, w), "Normal": (h, w, 3)}; other layers as "Layer.Pass"."""
-    import OpenImageIO as oiio
-
-    image = oiio.ImageBuf(str(path))
-    assert not image.has_error, f"{path}: {image.geterror()}"
-    spec = image.spec()
-    pixels = np.asarray(image.get_pixels(oiio.FLOAT)).reshape(spec.height, spec.width, -1)
-    channels = {}
-    for index, name in enumerate(spec.channelnames):
-        layer, pass_name, channel = name.rsplit(".", 2)
-        channels.setdefault((layer, pass_name), {})[channel] = pixels[:, :, index]
-    passes = {}
-    for (layer, pass_name), parts in channels.items():
-        order = [c for c in "RGBAXYZV" if c in parts]
-        stack = np.stack([parts[c] for c in order], axis=-1)
-        passes[f"{layer}.{pass_name}"] = stack[..., 0] if len(order) == 1 else stack
-        passes.setdefault(pass_name, passes[f"{layer}.{pass_name}"])
-    return passes
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from conftest import read_multilayer
+from multilayer import read_multilayer
 
 # Cycles' positions are float32 at up to 60 m; a pixel is 1/64 of the frame.
 PIXELS = 0.02
