@@ -127,6 +127,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     Model model{RayScene(scene), {}, {}, {}, {}};
     std::vector<Surface> surfaces = lit_surfaces(scene, model.rays, options, progress);
     if (surfaces.empty()) {
+        model.tree.triangle_surface.assign(scene.triangles.size(), {kNone, kNone});
         model.hierarchy_seconds = watch.lap();
         return model;
     }
