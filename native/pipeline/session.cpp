@@ -128,8 +128,8 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
         report.timings_s.solve = solution.seconds;
         irradiance = std::move(solution.irradiance);
     } else {
-        report.solve = {"CPU", "", "no light reaches a surface: there is nothing to solve", 0, 0,
-                        true};
+        report.solve = {"CPU", "", "no light reaches a surface: there is nothing to solve",
+                        0,     0,  true};
     }
 
     watch.lap();
