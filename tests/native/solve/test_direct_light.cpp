@@ -304,7 +304,8 @@ TEST_F(LeafIrradiance, averages_over_the_exposed_part_only) {
     for (unsigned i = 0; i < 16; ++i) {
         const vec2 centre((static_cast<float>(i % 4) + 0.5F) / 4,
                           (static_cast<float>(i / 4) + 0.5F) / 4);
-        if (tree.patch_point(static_cast<NodeId>(leaf), centre).x > 0) lit |= 1U << i;
+        if (tree.patch_point(static_cast<NodeId>(leaf), centre).x > 0)
+            lit = static_cast<std::uint16_t>(lit | 1U << i);
     }
     EXPECT_EQ(std::popcount(lit), 8);
     tree.exposed_mask[leaf] = lit;
