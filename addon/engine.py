@@ -117,7 +117,7 @@ class RenderJob:
             self._report_failure(options, failure, time.perf_counter() - begin)
             raise
         result = self._engine.session().render(
-            scene, options, progress=self._progress, cancelled=self._engine.test_break,
+            scene, options, progress=self._progress, cancelled=self._cancelled,
             sync_seconds=time.perf_counter() - begin,
             film_transparent=self._depsgraph.scene.render.film_transparent)
         if result["cancelled"]:
@@ -135,12 +135,15 @@ class RenderJob:
 
         camera = self._engine.camera_override or self._depsgraph.scene.camera
         set_camera(scene, self._engine, self._depsgraph, camera, self._frame)
-        SceneWriter(scene, warn).write(self._depsgraph, self._engine.test_break)
+        SceneWriter(scene, warn).write(self._depsgraph, self._cancelled)
         return scene
 
     def _progress(self, fraction, stage):
         self._engine.update_stats("", stage)
         self._engine.update_progress(fraction)
+
+    def _cancelled(self):
+        return self._engine.test_break()
 
     def _report_failure(self, options, failure, seconds):
         path = options.get("report_path")

@@ -152,6 +152,19 @@ def quad(name="Quad", **attributes):
     return link(mesh, name, **attributes)
 
 
+def material(name, albedo=None, emission=None):
+    """A Diffuse BSDF of `albedo`, or an Emission shader of radiance `emission`."""
+    surface = bpy.data.materials.new(name)
+    surface.use_nodes = True
+    tree = surface.node_tree
+    tree.nodes.clear()
+    node = tree.nodes.new("ShaderNodeEmission" if emission else "ShaderNodeBsdfDiffuse")
+    node.inputs["Color"].default_value = (*(emission or albedo), 1.0)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    return surface
+
+
 def summary(scene):
     """Meshes as {"name", "triangles", "polygons", "low", "high", ...} with world-space extents."""
     result = []

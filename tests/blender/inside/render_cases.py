@@ -13,7 +13,7 @@ import bpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import recorder  # noqa: E402
-from recorder import cube, link, quad  # noqa: E402
+from recorder import cube, link, material, quad  # noqa: E402
 
 FOLDER = pathlib.Path(recorder.arguments()[0])
 CASES = {}
@@ -24,18 +24,6 @@ EMISSION = (0.25, 0.5, 1.0)
 def case(build):
     CASES[build.__name__] = build
     return build
-
-
-def material(name, albedo=None, emission=None):
-    shader = bpy.data.materials.new(name)
-    shader.use_nodes = True
-    tree = shader.node_tree
-    tree.nodes.clear()
-    node = tree.nodes.new("ShaderNodeEmission" if emission else "ShaderNodeBsdfDiffuse")
-    node.inputs["Color"].default_value = (*(emission or albedo), 1.0)
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(node.outputs[0], output.inputs["Surface"])
-    return shader
 
 
 def shown(thing, **colours):
