@@ -8,6 +8,6 @@ namespace antiradiance {
 
 void bind_schema(pybind11::module_& module);   // options_schema
 void bind_scene(pybind11::module_& module);    // Scene
-void bind_session(pybind11::module_& module);  // Session, write_failure_report
+void bind_session(pybind11::module_& module);  // Session, compare_visibility, ...
 
 }  // namespace antiradiance

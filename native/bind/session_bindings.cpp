@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bind/arrays.h"
 #include "bind/bindings.h"
+#include "pipeline/compare_visibility.h"
 #include "pipeline/session.h"
 
 #include <pybind11/stl.h>
@@ -163,6 +164,19 @@ py::dict render(Session& session, const Scene& scene, const py::dict& option_val
     return stopped ? py::dict("cancelled"_a = true) : to_dict(result);
 }
 
+py::dict visibility_error(const Scene& scene, const py::dict& option_values, int rays_per_link) {
+    const Options options = to_options(option_values);
+    VisibilityError error;
+    {
+        const py::gil_scoped_release no_gil;
+        Progress progress;
+        error = compare_visibility(scene, options, rays_per_link, progress);
+    }
+    return py::dict("relative_rms"_a = error.relative_rms, "bias"_a = error.bias,
+                    "converged"_a = error.converged, "least_radiance"_a = error.least_radiance,
+                    "leaves"_a = error.leaves, "links"_a = error.links);
+}
+
 }  // namespace
 
 void bind_session(py::module_& module) {
@@ -174,6 +188,11 @@ void bind_session(py::module_& module) {
              "Returns a dict: cancelled; unless it is true also combined (h,w,4) f32 linear "
              "Rec.709, premultiplied, row 0 below; depth (h,w) f32, m; normal (h,w,3) f32, world "
              "space; report, JSON; warnings, list of str. Raises SceneError");
+    module.def(
+        "compare_visibility", &visibility_error, "scene"_a, "options"_a, "rays_per_link"_a = 16,
+        "The error of antiradiance against ray-tested links on the same link mesh: a dict of "
+        "relative_rms, bias (irradiance over all leaves), converged, least_radiance, leaves, "
+        "links");
     module.def("write_failure_report", &write_failure_report, "path"_a, "error"_a, "warnings"_a,
                "sync_seconds"_a,
                "Writes the JSON report of a render that failed before the core saw it");
