@@ -21,6 +21,7 @@ struct Surface {
     std::int32_t object = kNone;    // into Scene::objects
     std::int32_t lamp = kNone;      // into Scene::lamps: emits only, neither receives nor blocks
     bool back_side = false;         // the lit side is the triangles' back
+    bool emits = false;             // an emissive material, or a lamp
 };
 
 // A patch's region in its surface: quads a rectangle in (u, v) of the bilinear map, triangles a

@@ -153,6 +153,7 @@ Surface make_surface(const Scene& scene, const Polygon& polygon, bool back_side)
     s.material = scene.triangle_material[t];
     s.object = scene.triangle_object[t];
     s.back_side = back_side;
+    s.emits = scene.materials[static_cast<std::size_t>(s.material)].emits();
     return s;
 }
 
@@ -179,6 +180,7 @@ Surface make_lamp_surface(const Lamp& lamp, std::int32_t lamp_index) {
         corner = center + (corner - center) * shrink;
     s.corner_count = 4;
     s.lamp = lamp_index;
+    s.emits = true;
     return s;
 }
 

@@ -176,9 +176,14 @@ private:
         const float cos_b = std::max(std::abs(glm::dot(b.normal, d)), 0.5F * a.radius) / distance;
         const float solid_a = a.area * cos_a / d2;
         const float solid_b = b.area * cos_b / d2;
-        const float eps = options_.link_threshold * kPi * (straddles ? kStraddlingShare : 1.0F);
+        const float eps = options_.link_threshold * kPi * (straddles ? kStraddlingShare : 1.0F) *
+                          (emits(a) || emits(b) ? options_.emitter_share : 1.0F);
         return solid_a * cos_b < eps && solid_b * cos_a < eps && solid_a < widest_ &&
                solid_b < widest_;
+    }
+
+    [[nodiscard]] bool emits(const GrowingNode& patch) const {
+        return tree_.surfaces()[static_cast<std::size_t>(patch.surface)].emits;
     }
 
     [[nodiscard]] Verdict decide_clusters(const GrowingNode& a, const GrowingNode& b) const {

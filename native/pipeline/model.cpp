@@ -26,6 +26,9 @@ namespace {
 constexpr float kDefaultLeaves = 5000;
 // Patches may be split for the sake of links down to this share of the patch size.
 constexpr float kLeastEdge = 0.5F;
+// Of the link threshold, for links that carry an emitter's light: on the Cornell box 3 % more links
+// take the error against ray-tested ones from .157 to .141.
+constexpr float kEmitterShare = 0.25F;
 // Above this many surfaces EXPLICIT links clusters; below it polygons are a little more accurate
 // (algorithm.md "Clusters").
 constexpr std::size_t kClusterSurfaces = 4000;
@@ -90,6 +93,7 @@ RefineOptions refine_options(const Options& options, float patch_size, std::size
     RefineOptions refine;
     refine.link_threshold = options.link_threshold;
     refine.least_edge = kLeastEdge * patch_size;
+    if (options.direct_light == DirectLightMode::kImplicit) refine.emitter_share = kEmitterShare;
     refine.antiradiance = options.visibility == Visibility::kImplicit;
     refine.cluster_links =
         options.visibility == Visibility::kExplicit && surfaces > kClusterSurfaces;
