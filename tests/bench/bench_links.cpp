@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Link creation and visibility, from hierarchy to sorted link mesh.
+// Link creation and visibility.
 #include <benchmark/benchmark.h>
 
+#include "hierarchy/lit_sides.h"
+#include "links/build_link_set.h"
+#include "links/refine.h"
 #include "links/visibility.h"
-#include "pipeline/stopwatch.h"
+#include "meter.h"
 #include "stages.h"
-#include "triad.h"
 
 namespace antiradiance::bench {
 
@@ -14,23 +16,51 @@ namespace {
 // Written once by refinement and once by each of the two sorting steps, which read it as well.
 constexpr double kBytesPerMadeLink = 2.0 * sizeof(RawLink) + 4.0 * sizeof(Link);
 
-// Refinement, form factors and sorting; links that no ray passes count as made.
+GrowingTree unlinked_tree(const Stages& room) {
+    Progress progress;
+    const std::vector<Polygon> polygons = make_polygons(room.scene);
+    const auto lit = find_lit_sides(room.scene, room.model.rays, polygons, progress);
+    std::vector<Surface> surfaces;
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+        for (const bool back_side : {false, true}) {
+            if (lit[p][back_side ? 1 : 0])
+                surfaces.push_back(make_surface(room.scene, polygons[p], back_side));
+        }
+    }
+    GrowingTree tree(std::move(surfaces));
+    tree.split_to(room.options.max_patch_size);
+    return tree;
+}
+
+// Refinement, form factors and sorting.
 void link_creation(benchmark::State& state, Visibility visibility) {
-    Stages room(visibility);
-    const TriadBound bound(state);
-    double seconds = 0;
+    const Stages& room = stages(visibility);
+    const GrowingTree unlinked = unlinked_tree(room);
+    const DirectionBins bins(room.options.direction_bins);
+    RefineOptions options;
+    options.link_threshold = room.options.link_threshold;
+    options.least_edge = 0.5F * room.options.max_patch_size;
+    options.antiradiance = visibility == Visibility::kImplicit;
+    Meter meter(state);
+    std::size_t links = 0;
     for (auto _ : state) {
         Progress progress;
-        const Model model = build_model(room.scene, room.options, progress);
-        state.SetIterationTime(model.links_seconds);
-        seconds += model.links_seconds;
+        GrowingTree growing = unlinked;
+        RefinedLinks refined;
+        meter.time([&] { refined = refine_links(growing, bins, options, progress); });
+        std::vector<NodeId> number;
+        const PatchTree tree = growing.finish(room.scene, number);
+        for (RawLink& l : refined.links) {
+            l.receiver = number[static_cast<std::size_t>(l.receiver)];
+            l.source = number[static_cast<std::size_t>(l.source)];
+        }
+        meter.time(
+            [&] { benchmark::DoNotOptimize(build_link_set(tree, bins, refined.links, progress)); });
+        links = refined.links.size();
     }
-    const auto links = static_cast<double>(room.model.links.links.size());
-    const double rate = links * static_cast<double>(state.iterations()) / seconds;
-    state.counters["links"] = links;
+    state.counters["links"] = static_cast<double>(links);
     state.counters["leaves"] = static_cast<double>(room.model.tree.leaves.size());
-    state.counters["links/s"] = rate;
-    bound.report(rate, kBytesPerMadeLink);
+    meter.report("links", static_cast<double>(links), kBytesPerMadeLink);
 }
 BENCHMARK_CAPTURE(link_creation, IMPLICIT, Visibility::kImplicit)
     ->UseManualTime()
@@ -63,20 +93,19 @@ void visibility_rays(benchmark::State& state) {
     const Stages& room = stages(Visibility::kImplicit);
     Pairs all = all_pairs(room.model.links);
     const int rays_per_pair = room.options.visibility_rays;
-    const TriadBound bound(state);
-    Stopwatch watch;
+    Meter meter(state);
     for (auto _ : state) {
         Progress progress;
-        apply_ray_visibility(room.model.tree, room.model.rays, rays_per_pair, all.pairs, all.links,
-                             progress);
+        meter.time([&] {
+            apply_ray_visibility(room.model.tree, room.model.rays, rays_per_pair, all.pairs,
+                                 all.links, progress);
+        });
     }
-    const double rays = static_cast<double>(all.pairs.size()) * rays_per_pair;
-    const double rate = rays * static_cast<double>(state.iterations()) / watch.lap();
-    state.counters["rays/s"] = rate;
     // A pair is read and its link updated; the scene fits into the cache.
-    bound.report(rate, (sizeof(LinkedPair) + 2.0 * sizeof(RawLink)) / rays_per_pair);
+    meter.report("rays", static_cast<double>(all.pairs.size()) * rays_per_pair,
+                 (sizeof(LinkedPair) + 2.0 * sizeof(RawLink)) / rays_per_pair);
 }
-BENCHMARK(visibility_rays)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(visibility_rays)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

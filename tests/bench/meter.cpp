@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "triad.h"
+#include "meter.h"
 
 #include <algorithm>
 #include <vector>
@@ -35,11 +35,14 @@ double triad_rate() {
     return best;
 }
 
-void TriadBound::report(double rate, double bytes) const {
-    const double triad = 0.5 * (before_ + triad_rate());
+void Meter::report(const std::string& name, double items, double bytes) const {
+    const double all = items * static_cast<double>(state_.iterations());
+    const double triad = 0.5 * (triad_before_ + triad_rate());
+    state_.counters[name + "/s"] = all / seconds_;
+    state_.counters[name + "/core_s"] = all / cpu_seconds_;
     state_.counters["triad"] = triad;
     state_.counters["bound"] = triad / bytes;
-    state_.counters["of_bound"] = rate * bytes / triad;
+    state_.counters["of_bound"] = all / seconds_ * bytes / triad;
 }
 
 }  // namespace antiradiance::bench
