@@ -36,9 +36,11 @@ GrowingTree unlinked_tree(const Stages& room) {
 void link_creation(benchmark::State& state, Visibility visibility) {
     const Stages& room = stages(visibility);
     const GrowingTree unlinked = unlinked_tree(room);
-    const DirectionBins bins(room.options.direction_bins);
+    const DirectionBins& bins = room.model.links.bins;
     RefineOptions options;
     options.link_threshold = room.options.link_threshold;
+    options.bin_share =
+        static_cast<float>(bins.count()) / static_cast<float>(room.options.direction_bins);
     options.least_edge = 0.5F * room.options.max_patch_size;
     options.antiradiance = visibility == Visibility::kImplicit;
     Meter meter(state);
