@@ -32,6 +32,7 @@ constexpr float kEmitterShare = 0.25F;
 // Above this many surfaces EXPLICIT links clusters; below it polygons are a little more accurate
 // (algorithm.md "Clusters").
 constexpr std::size_t kClusterSurfaces = 4000;
+constexpr int kFewestBins = 32;  // that DirectionBins takes
 
 // Bytes, of all stages' arrays together at their peak.
 constexpr double kBytesPerPatch = 600;
@@ -89,6 +90,13 @@ void check_memory(const Scene& scene, const std::vector<Surface>& surfaces, floa
                      " of memory; " + gibibytes(available) + " are free: raise Max Patch Size");
 }
 
+// Directions that links are sorted by. Between patches EXPLICIT asks for none, and with the fewest
+// bins it needs less memory and time for the same light; clusters send into each bin its own.
+int link_bins(const Options& options, bool cluster_links) {
+    const bool directed = options.visibility == Visibility::kImplicit || cluster_links;
+    return directed ? options.direction_bins : kFewestBins;
+}
+
 RefineOptions refine_options(const Options& options, float patch_size, std::size_t surfaces) {
     RefineOptions refine;
     refine.link_threshold = options.link_threshold;
@@ -97,6 +105,9 @@ RefineOptions refine_options(const Options& options, float patch_size, std::size
     refine.antiradiance = options.visibility == Visibility::kImplicit;
     refine.cluster_links =
         options.visibility == Visibility::kExplicit && surfaces > kClusterSurfaces;
+    // As fine as direction_bins asks for, whatever the links are sorted by.
+    refine.bin_share = static_cast<float>(link_bins(options, refine.cluster_links)) /
+                       static_cast<float>(options.direction_bins);
     refine.most_links = static_cast<std::size_t>(
         kMemoryShare * static_cast<double>(available_memory_bytes()) / kBytesPerLink);
     return refine;
@@ -144,7 +155,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     model.hierarchy_seconds = watch.lap();
 
     progress.begin_stage("Linking patches", 0.1F, 0.25F);
-    const DirectionBins bins(options.direction_bins);
+    const DirectionBins bins(link_bins(options, refine.cluster_links));
     RefinedLinks refined = refine_links(growing, bins, refine, progress);
     model.links_seconds = watch.lap();
 

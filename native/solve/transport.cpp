@@ -4,6 +4,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "base/parallel.h"
 
@@ -30,87 +31,51 @@ struct Transport::Scratch {
     // What links read: radiance of all nodes, then clamped antiradiance of all nodes in this bin,
     // so that the sign of a link is an offset and the inner loop has no branch.  // 1 or 2 #nodes
     std::vector<Float4> sent;
+    // J Phi of the bin's segments by receiver, 0 elsewhere.  // #nodes if there are - links
+    std::vector<Float4> passed;
 };
 
 Transport::Transport(const PatchTree& tree, const LinkSet& links)
     : tree_(tree),
       links_(links),
       radiance_(tree.size()),
-      phi_(links.segments.size(), Float4{}),
-      node_segments_(links.segments.size()),
-      node_segment_begin_(tree.size() + 1, 0),
-      segment_bin_(links.segments.size()),
+      phi_(links.segments.size(), vec3(0)),
       bin_clusters_(static_cast<std::size_t>(links.bins.count())) {
-    index_segments();
-    index_antiradiance();
+    index_links();
 }
 
-void Transport::index_segments() {
-    for (const Segment& s : links_.segments)
-        ++node_segment_begin_[static_cast<std::size_t>(s.receiver) + 1];
-    for (std::size_t n = 0; n < tree_.size(); ++n)
-        node_segment_begin_[n + 1] += node_segment_begin_[n];
-    std::vector<std::uint32_t> fill(node_segment_begin_.begin(), node_segment_begin_.end() - 1);
-    std::vector<std::int32_t> last_bin(tree_.size(), -1);
+std::size_t Transport::bytes() const {
+    return phi_.size() * sizeof(vec3) + passing_.size() * sizeof(Passing) +
+           bin_passing_.size() * sizeof(std::uint32_t);
+}
+
+void Transport::index_links() {
+    bin_passing_.push_back(0);
+    std::vector<std::int32_t> last_sent(tree_.size(), kNone);    // bin in which a node last sent L
+    std::vector<std::int32_t> last_passed(tree_.size(), kNone);  // and A
     for (int b = 0; b < links_.bins.count(); ++b) {
-        for (std::uint32_t i = links_.bin_segments[static_cast<std::size_t>(b)];
-             i < links_.bin_segments[static_cast<std::size_t>(b) + 1]; ++i) {
+        const auto bin = static_cast<std::size_t>(b);
+        for (std::uint32_t i = links_.bin_segments[bin]; i < links_.bin_segments[bin + 1]; ++i) {
             const Segment& s = links_.segments[i];
-            segment_bin_[i] = b;
-            node_segments_[fill[static_cast<std::size_t>(s.receiver)]++] = i;
             clusters_receive_ = clusters_receive_ || tree_.is_cluster(s.receiver);
             for (std::uint32_t l = s.begin; l < s.end; ++l) {
-                const NodeId source = links_.links[l].source;
-                std::int32_t& last = last_bin[static_cast<std::size_t>(source)];
-                if (!tree_.is_cluster(source) || last == b) continue;
+                const Link& link = links_.links[l];
+                const bool minus = link.form_factor < 0;
+                const NodeId source = link.source;
+                if (!minus && !tree_.is_cluster(source)) continue;
+                std::int32_t& last =
+                    (minus ? last_passed : last_sent)[static_cast<std::size_t>(source)];
+                if (last == b) continue;
                 last = b;
-                bin_clusters_[static_cast<std::size_t>(b)].push_back(source);
-                clusters_send_ = true;
+                if (minus) {
+                    passing_.push_back({source, i});
+                } else {
+                    bin_clusters_[bin].push_back(source);
+                    clusters_send_ = true;
+                }
             }
         }
-    }
-}
-
-void Transport::index_antiradiance() {
-    bin_passing_.assign(bin_clusters_.size() + 1, 0);
-    if (links_.antiradiance_count == 0) return;
-    std::vector<std::uint32_t> segment_of(tree_.size(), 0);
-    for (int b = 0; b < links_.bins.count(); ++b) {
-        index_antiradiance(b, segment_of);
-        bin_passing_[static_cast<std::size_t>(b) + 1] = static_cast<std::uint32_t>(passing_.size());
-    }
-}
-
-// segment_of: #nodes, scratch; 1 + number of a node's segment in this bin, 0: none.
-void Transport::index_antiradiance(int bin, std::vector<std::uint32_t>& segment_of) {
-    const std::uint32_t begin = links_.bin_segments[static_cast<std::size_t>(bin)];
-    const std::uint32_t end = links_.bin_segments[static_cast<std::size_t>(bin) + 1];
-    std::fill(segment_of.begin(), segment_of.end(), 0U);
-    for (std::uint32_t i = begin; i < end; ++i)
-        segment_of[static_cast<std::size_t>(links_.segments[i].receiver)] = i + 1;
-
-    std::vector<char> seen(tree_.size(), 0);
-    const auto contribute = [&](NodeId n, float share) {
-        const std::uint32_t segment = segment_of[static_cast<std::size_t>(n)];
-        if (segment > 0)
-            contributions_.push_back({segment - 1, share * links_.segments[segment - 1].inv_c});
-    };
-    for (std::uint32_t i = begin; i < end; ++i) {
-        const Segment& s = links_.segments[i];
-        for (std::uint32_t l = s.begin; l < s.end; ++l) {
-            const NodeId source = links_.links[l].source;
-            const auto n = static_cast<std::size_t>(source);
-            if (links_.links[l].form_factor > 0 || seen[n]) continue;
-            seen[n] = 1;
-            Passing passing{source, i, static_cast<std::uint32_t>(contributions_.size()), 0};
-            for (NodeId up = source; !tree_.is_cluster(up);
-                 up = tree_.parent[static_cast<std::size_t>(up)])
-                contribute(up, 1);
-            for (NodeId down = source + 1; down < tree_.subtree_end[n]; ++down)
-                contribute(down, tree_.area[static_cast<std::size_t>(down)] / tree_.area[n]);
-            passing.end = static_cast<std::uint32_t>(contributions_.size());
-            passing_.push_back(passing);
-        }
+        bin_passing_.push_back(static_cast<std::uint32_t>(passing_.size()));
     }
 }
 
@@ -129,7 +94,10 @@ void Transport::gather(std::span<const vec3> radiance, Sweep sweep, float dampin
         Scratch& mine = scratch.local();
         if (mine.sent.empty()) {
             mine.sent = radiance_;
-            if (links_.antiradiance_count > 0) mine.sent.resize(2 * radiance_.size());
+            if (links_.antiradiance_count > 0) {
+                mine.sent.resize(2 * radiance_.size());
+                mine.passed.assign(radiance_.size(), Float4{});
+            }
         }
         gather_bin(static_cast<int>(bin), sweep, damping, mine);
     });
@@ -138,28 +106,44 @@ void Transport::gather(std::span<const vec3> radiance, Sweep sweep, float dampin
 void Transport::gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch) {
     const auto b = static_cast<std::size_t>(bin);
     load_clusters(bin, scratch);
+    const std::span<const Segment> segments(links_.segments.data() + links_.bin_segments[b],
+                                            links_.bin_segments[b + 1] - links_.bin_segments[b]);
+    const bool antiradiance = links_.antiradiance_count > 0;
+    const auto pass = [&](const Segment& s, const Float4& phi) {
+        if (antiradiance) scratch.passed[static_cast<std::size_t>(s.receiver)] = s.inv_c * phi;
+    };
+    std::uint32_t i = links_.bin_segments[b];
+    for (const Segment& s : segments)
+        pass(s, to_float4(phi_[i++]));
+
     const Passing* passing = passing_.data() + bin_passing_[b];
     const Passing* const passing_end = passing_.data() + bin_passing_[b + 1];
     if (sweep == Sweep::kJacobi) {
         for (; passing != passing_end; ++passing)
-            load_antiradiance(*passing, scratch);
+            load_antiradiance(passing->node, scratch);
     }
 
     const auto node_count = static_cast<std::uint32_t>(tree_.size());
     const Float4* const sent = scratch.sent.data();
-    for (std::uint32_t i = links_.bin_segments[b]; i < links_.bin_segments[b + 1]; ++i) {
+    i = links_.bin_segments[b];
+    for (const Segment& s : segments) {
         // Front to back: by now all segments in front of these nodes have their new Phi.
         for (; passing != passing_end && passing->first_use == i; ++passing)
-            load_antiradiance(*passing, scratch);
-        const Segment& s = links_.segments[i];
+            load_antiradiance(passing->node, scratch);
         Float4 sum{};
         for (std::uint32_t l = s.begin; l < s.end; ++l) {
             const Link& link = links_.links[l];
-            const std::uint32_t offset = link.form_factor < 0 ? node_count : 0U;
-            sum += link.form_factor * sent[static_cast<std::uint32_t>(link.source) + offset];
+            const std::uint32_t minus = std::bit_cast<std::uint32_t>(link.form_factor) >> 31U;
+            sum += link.form_factor *
+                   sent[static_cast<std::uint32_t>(link.source) + minus * node_count];
         }
-        phi_[i] += damping * (kPi * sum - phi_[i]);
+        const Float4 before = to_float4(phi_[i]);
+        const Float4 phi = before + damping * (kPi * sum - before);
+        phi_[i++] = to_vec3(phi);
+        pass(s, phi);
     }
+    for (const Segment& s : segments)
+        pass(s, Float4{});
 }
 
 void Transport::load_clusters(int bin, Scratch& scratch) const {
@@ -172,14 +156,17 @@ void Transport::load_clusters(int bin, Scratch& scratch) const {
     }
 }
 
-// J of Eq. 4, diagonal in the bin, and the clamp that keeps the solve bounded (algorithm.md "It can
-// diverge").
-void Transport::load_antiradiance(const Passing& passing, Scratch& scratch) const {
-    Float4 a{};
-    for (std::uint32_t c = passing.begin; c < passing.end; ++c)
-        a += contributions_[c].weight * phi_[contributions_[c].segment];
-    scratch.sent[tree_.size() + static_cast<std::size_t>(passing.node)] =
-        clamp(a, most_antiradiance_);
+// The antiradiance of a node: of the patches above it pushed down, its own, and that of those below
+// pulled up; with the clamp that keeps the solve bounded (algorithm.md "It can diverge").
+void Transport::load_antiradiance(NodeId node, Scratch& scratch) const {
+    const auto n = static_cast<std::size_t>(node);
+    Float4 below{};
+    for (auto down = n + 1; down < static_cast<std::size_t>(tree_.subtree_end[n]); ++down)
+        below += tree_.area[down] * scratch.passed[down];
+    Float4 a = below / tree_.area[n];
+    for (NodeId up = node; !tree_.is_cluster(up); up = tree_.parent[static_cast<std::size_t>(up)])
+        a += scratch.passed[static_cast<std::size_t>(up)];
+    scratch.sent[tree_.size() + n] = clamp(a, most_antiradiance_);
 }
 
 void Transport::pull_moments(std::span<const vec3> radiance) {
@@ -196,16 +183,11 @@ void Transport::pull_moments(std::span<const vec3> radiance) {
     }
 }
 
-void Transport::push_cluster_irradiance(std::vector<vec3>& irradiance) const {
-    std::vector<Moments> received(tree_.size());
-    for (std::size_t n = 0; n < tree_.size(); ++n) {
-        if (!tree_.is_cluster(static_cast<NodeId>(n))) continue;
-        if (n > 0) received[n] = received[static_cast<std::size_t>(tree_.parent[n])];
-        for (std::uint32_t i = node_segment_begin_[n]; i < node_segment_begin_[n + 1]; ++i) {
-            const std::uint32_t segment = node_segments_[i];
-            // Towards the source.
-            received[n].add(-links_.bins.axis(segment_bin_[segment]), to_vec3(phi_[segment]));
-        }
+// What arrived at clusters, down to the surfaces below.
+void Transport::push_moments(std::vector<Moments>& received, std::vector<vec3>& irradiance) const {
+    for (std::size_t n = 1; n < tree_.size(); ++n) {
+        if (tree_.is_cluster(static_cast<NodeId>(n)))
+            received[n] += received[static_cast<std::size_t>(tree_.parent[n])];
     }
     for (std::size_t s = 0; s < tree_.surfaces.size(); ++s) {
         if (tree_.surfaces[s].lamp != kNone) continue;
@@ -217,14 +199,19 @@ void Transport::push_cluster_irradiance(std::vector<vec3>& irradiance) const {
 
 std::vector<vec3> Transport::leaf_irradiance() const {
     std::vector<vec3> irradiance(tree_.size(), vec3(0));
-    for (std::size_t n = 0; n < tree_.size(); ++n) {
-        if (tree_.is_cluster(static_cast<NodeId>(n))) continue;
-        Float4 sum{};
-        for (std::uint32_t i = node_segment_begin_[n]; i < node_segment_begin_[n + 1]; ++i)
-            sum += phi_[node_segments_[i]];
-        irradiance[n] = to_vec3(sum);
+    std::vector<Moments> received(clusters_receive_ ? tree_.size() : 0);
+    for (std::size_t b = 0; b + 1 < links_.bin_segments.size(); ++b) {
+        const vec3 to_source = -links_.bins.axis(static_cast<int>(b));
+        for (std::uint32_t i = links_.bin_segments[b]; i < links_.bin_segments[b + 1]; ++i) {
+            const NodeId receiver = links_.segments[i].receiver;
+            if (tree_.is_cluster(receiver)) {
+                received[static_cast<std::size_t>(receiver)].add(to_source, phi_[i]);
+            } else {
+                irradiance[static_cast<std::size_t>(receiver)] += phi_[i];
+            }
+        }
     }
-    if (clusters_receive_) push_cluster_irradiance(irradiance);
+    if (clusters_receive_) push_moments(received, irradiance);
     for (std::size_t n = 1; n < tree_.size(); ++n) {
         if (!tree_.is_cluster(static_cast<NodeId>(n)) && !tree_.is_cluster(tree_.parent[n]))
             irradiance[n] += irradiance[static_cast<std::size_t>(tree_.parent[n])];

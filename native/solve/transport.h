@@ -36,40 +36,31 @@ public:
     // Irradiance of all leaves from the last gather, W/m2.  // #nodes, 0 at inner nodes
     [[nodiscard]] std::vector<vec3> leaf_irradiance() const;
 
+    // Kept beside the tree and the links, but for what each node takes.
+    [[nodiscard]] std::size_t bytes() const;
+
 private:
-    // The antiradiance of one node that - links of a bin read: a weighted sum of Phi over the
-    // segments of the patches above it (pushed down), of itself, and below it (pulled up).
+    // A node whose antiradiance - links of a bin read.
     struct Passing {
         NodeId node;
-        std::uint32_t first_use;   // segment whose links read it first
-        std::uint32_t begin, end;  // into contributions_
-    };
-    struct Contribution {
-        std::uint32_t segment;
-        float weight;  // 1 / C(b), times the share of the area for patches below
+        std::uint32_t first_use;  // segment whose links read it first
     };
     struct Scratch;
 
-    void index_segments();
-    void index_antiradiance();
-    void index_antiradiance(int bin, std::vector<std::uint32_t>& segment_of);
+    void index_links();
     void gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch);
     void load_clusters(int bin, Scratch& scratch) const;
-    void load_antiradiance(const Passing& passing, Scratch& scratch) const;
+    void load_antiradiance(NodeId node, Scratch& scratch) const;
     void pull_moments(std::span<const vec3> radiance);
-    void push_cluster_irradiance(std::vector<vec3>& irradiance) const;
+    void push_moments(std::vector<Moments>& received, std::vector<vec3>& irradiance) const;
 
     const PatchTree& tree_;
     const LinkSet& links_;
-    std::vector<Float4> radiance_;              // #nodes, of this pass
-    Float4 most_antiradiance_{};                // upper clamp of A: the largest L of each colour
-    std::vector<Float4> phi_;                   // #segments, W/m2
-    std::vector<std::uint32_t> node_segments_;  // segment numbers by receiver
-    std::vector<std::uint32_t> node_segment_begin_;  // #nodes + 1
-    std::vector<std::int32_t> segment_bin_;          // #segments
-    std::vector<Passing> passing_;                   // by bin, then by first use
-    std::vector<std::uint32_t> bin_passing_;         // #bins + 1
-    std::vector<Contribution> contributions_;
+    std::vector<Float4> radiance_;            // #nodes, of this pass
+    Float4 most_antiradiance_{};              // upper clamp of A: the largest L of each colour
+    std::vector<vec3> phi_;                   // #segments, W/m2
+    std::vector<Passing> passing_;            // by bin, then by first use
+    std::vector<std::uint32_t> bin_passing_;  // #bins + 1
     // Clusters, only where links end at some:
     bool clusters_send_ = false;
     bool clusters_receive_ = false;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The engine without Blender. Exit codes: 0 done, 1 failed, 2 wrong usage, 130 cancelled.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "base/error.h"
+#include "tools/render_command.h"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kCancelled = 130;  // what a shell says of a process that Ctrl-C ended
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Radiosity with antiradiance, without Blender", "antiradiance"};
+    app.require_subcommand(1);
+    antiradiance::add_render_command(app);
+    try {
+        app.parse(argc, argv);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : kWrongUsage;  // asking for help is no error
+    } catch (const antiradiance::Cancelled&) {
+        std::fputs("cancelled\n", stderr);
+        return kCancelled;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "error: %s\n", error.what());
+        return kFailed;
+    }
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/option_flags.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace antiradiance {
+
+namespace {
+
+std::string flag_of(const OptionInfo& option) {
+    std::string flag = "--" + std::string(option.name);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return flag;
+}
+
+std::string number_text(double number) {
+    std::ostringstream text;
+    text << number;
+    return std::move(text).str();
+}
+
+std::string default_of(const OptionInfo& option) {
+    const OptionValue value = option.access.get(Options{});
+    if (const auto* i = std::get_if<int>(&value)) {
+        return option.type == OptionType::kEnum
+                   ? std::string(option.items[static_cast<std::size_t>(*i)].id)
+                   : std::to_string(*i);
+    }
+    if (const auto* f = std::get_if<float>(&value)) return number_text(static_cast<double>(*f));
+    return option.type == OptionType::kPath ? std::get<std::string>(value) : "";
+}
+
+std::string help_of(const OptionInfo& option) {
+    std::string help(option.tooltip);
+    for (const EnumItem& item : option.items)
+        help += "\n" + std::string(item.id) + ": " + std::string(item.tooltip);
+    if (option.type == OptionType::kInt || option.type == OptionType::kFloat) {
+        help += "; " + number_text(option.min) + " to " + number_text(option.max) +
+                (option.unit == OptionUnit::kLength ? " m" : "");
+    }
+    return help;
+}
+
+template <typename Value>
+CLI::Option* add(CLI::App& command, Options& options, const OptionInfo& option) {
+    const auto set = [&options, &option](const Value& value) {
+        try {
+            set_option(options, option.name, value);
+        } catch (const SceneError& error) {
+            throw CLI::ValidationError(flag_of(option), error.what());
+        }
+    };
+    return command.add_option_function<Value>(flag_of(option), set, help_of(option))
+        ->default_str(default_of(option))
+        ->group("Engine");
+}
+
+std::vector<std::string> ids_of(const OptionInfo& option) {
+    std::vector<std::string> ids;
+    for (const EnumItem& item : option.items)
+        ids.emplace_back(item.id);
+    return ids;
+}
+
+}  // namespace
+
+void add_option_flags(CLI::App& command, Options& options) {
+    for (const OptionInfo& option : option_schema()) {
+        switch (option.type) {
+            case OptionType::kEnum:
+                add<std::string>(command, options, option)
+                    ->transform(CLI::IsMember(ids_of(option), CLI::ignore_case));
+                break;
+            case OptionType::kInt:
+                add<int>(command, options, option);
+                break;
+            case OptionType::kFloat:
+                add<float>(command, options, option);
+                break;
+            case OptionType::kPath:
+                add<std::string>(command, options, option)->type_name("FILE");
+                break;
+            case OptionType::kBool:
+                add<bool>(command, options, option)->type_name("true|false");
+                break;
+        }
+    }
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages.h"
+
+#include "furnished_room.h"
+#include "scene/validate.h"
+
+namespace antiradiance::bench {
+
+namespace {
+
+constexpr float kPatchSize = 0.3F;  // m
+
+Options options_of(Visibility visibility) {
+    Options options;
+    options.visibility = visibility;
+    options.max_patch_size = kPatchSize;
+    return options;
+}
+
+Scene valid_room() {
+    Scene scene = make_furnished_room();
+    validate(scene);
+    return scene;
+}
+
+Model model_of(const Scene& scene, const Options& options) {
+    Progress progress;
+    return build_model(scene, options, progress);
+}
+
+}  // namespace
+
+Stages::Stages(Visibility visibility)
+    : options(options_of(visibility)),
+      scene(valid_room()),
+      model(model_of(scene, options)),
+      direct(std::make_unique<DirectLight>(scene, model.rays, options.direct_light)) {
+    Progress progress;
+    source = direct->leaf_irradiance(model.tree, progress);
+    for (std::size_t n = 0; n < source.size(); ++n)
+        source[n] *= model.tree.albedo[n] * kInvPi;
+}
+
+const Stages& stages(Visibility visibility) {
+    static const std::array<std::unique_ptr<Stages>, 2> made{
+        std::make_unique<Stages>(Visibility::kImplicit),
+        std::make_unique<Stages>(Visibility::kExplicit)};
+    return *made[static_cast<std::size_t>(visibility)];
+}
+
+}  // namespace antiradiance::bench
