@@ -43,6 +43,9 @@ struct LinkedPair {
 struct RefinedLinks {
     std::vector<RawLink> links;
     std::vector<LinkedPair> pairs;
+
+    // number: node before -> node after, as GrowingTree::finish gives it.
+    void renumber(const std::vector<NodeId>& number);
 };
 
 // Oracle (algorithm.md "Refinement oracle"): link when both form factors are below eps, both solid

@@ -9,6 +9,7 @@
 #include "pipeline/choose_solver.h"
 #include "pipeline/model.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/transport_input.h"
 #include "scene/validate.h"
 
 namespace antiradiance {
@@ -37,27 +38,6 @@ private:
     std::string path_;
     std::ofstream file_;
 };
-
-// Radiance that enters the links at leaves: reflected direct light, and emission unless shadow rays
-// carry it.
-std::vector<vec3> link_sources(const PatchTree& tree, const std::vector<vec3>& direct,
-                               DirectLightMode mode) {
-    std::vector<vec3> source(tree.size(), vec3(0));
-    for (const NodeId leaf : tree.leaves) {
-        const auto n = static_cast<std::size_t>(leaf);
-        source[n] = tree.albedo[n] * kInvPi * direct[n];
-        if (mode == DirectLightMode::kImplicit) source[n] += tree.emission[n];
-        source[n] *= tree.exposed[n];
-    }
-    return source;
-}
-
-std::vector<vec3> exposed_albedo(const PatchTree& tree) {
-    std::vector<vec3> albedo(tree.size());
-    for (std::size_t n = 0; n < tree.size(); ++n)
-        albedo[n] = tree.albedo[n] * tree.exposed[n];
-    return albedo;
-}
 
 void describe(const Model& model, Report& report) {
     for (std::size_t n = 0; n < model.tree.size(); ++n) {
@@ -104,14 +84,11 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
     std::vector<vec3> irradiance(model.tree.size(), vec3(0));
     if (model.tree.size() > 0) {
         progress.begin_stage("Solving", 0.6F, 0.75F);
-        const std::vector<vec3> source =
-            link_sources(model.tree, leaf_direct, options.direct_light);
-        const std::vector<vec3> albedo = exposed_albedo(model.tree);
+        const TransportInput input =
+            make_transport_input(model.tree, leaf_direct, options.direct_light);
         SolveOptions solve;
         solve.iterations = options.iterations;
-        SolverRun run = solve_transport(options.solver,
-                                        {model.tree, model.links, source, albedo, model.row_scale},
-                                        solve, progress);
+        SolverRun run = solve_transport(options.solver, input.problem(model), solve, progress);
         Solution& solution = run.solution;
         if (!run.warning.empty()) report.warnings.push_back(run.warning);
         report.solve = {solution.backend,
