@@ -26,7 +26,9 @@ public:
     [[nodiscard]] std::vector<float> projected_solid_angles(const vec3& normal) const;  // #bins
 
 private:
-    static constexpr int kFaceSize = 128;  // texels along a cube face
+    // Texels along a cube face: odd, so that an axis of the world meets the middle of one. Between
+    // two, rounding would throw the links of parallel walls from bin to bin.
+    static constexpr int kFaceSize = 129;
     struct Texel {
         vec3 direction;
         float solid_angle;

@@ -376,6 +376,18 @@ void append(RefinedLinks& all, BlockResult& block) {
 
 }  // namespace
 
+void RefinedLinks::renumber(const std::vector<NodeId>& number) {
+    const auto to = [&](NodeId n) { return number[static_cast<std::size_t>(n)]; };
+    for (RawLink& l : links) {
+        l.receiver = to(l.receiver);
+        l.source = to(l.source);
+    }
+    for (LinkedPair& p : pairs) {
+        p.a = to(p.a);
+        p.b = to(p.b);
+    }
+}
+
 RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins,
                           const RefineOptions& options, Progress& progress) {
     const Refiner refiner(tree, bins, options);

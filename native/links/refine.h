@@ -14,8 +14,8 @@ namespace antiradiance {
 struct RefineOptions {
     float link_threshold = 0.02F;  // eps: largest form factor of one link
     float bin_share = 1;           // k: largest solid angle of an end, in bins
-    // Factor on eps for pairs with an emitter, 0..1: where links carry direct light, those few carry
-    // most of it ("BF refinement", Hanrahan, Salzman & Aupperle 1991).
+    // Factor on eps for pairs with an emitter, 0..1: where links carry direct light, those few
+    // carry most of it ("BF refinement", Hanrahan, Salzman & Aupperle 1991).
     float emitter_share = 1;
     int receiver_levels = 1;     // a link ends this many levels below the receiver that the oracle
                                  // accepted: finer shadows, less banding (Meyer et al. 2009)
@@ -46,6 +46,9 @@ struct LinkedPair {
 struct RefinedLinks {
     std::vector<RawLink> links;
     std::vector<LinkedPair> pairs;
+
+    // number: node before -> node after, as GrowingTree::finish gives it.
+    void renumber(const std::vector<NodeId>& number);
 };
 
 // Oracle (algorithm.md "Refinement oracle"): link when both form factors are below eps, both solid

@@ -8,9 +8,9 @@
 #include "links/visibility.h"
 #include "pipeline/choose_solver.h"
 #include "pipeline/model.h"
+#include "pipeline/transport_input.h"
 #include "scene/validate.h"
 #include "solve/direct_light.h"
-#include "solve/transport_input.h"
 
 namespace antiradiance {
 
@@ -111,7 +111,7 @@ VisibilityError compare_visibility(Scene scene, Options options, int rays_per_li
 
     const DirectLight light(scene, model.rays, options.direct_light);
     const std::vector<vec3> direct = light.leaf_irradiance(model.tree, progress);
-    const TransportInput input = transport_input(model.tree, direct, options.direct_light);
+    const TransportInput input = make_transport_input(model.tree, direct, options.direct_light);
     SolveOptions solve;
     solve.iterations = options.iterations;
     const auto solution_over = [&](const LinkSet& links) {

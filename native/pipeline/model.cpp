@@ -122,18 +122,6 @@ void drop_buried(const PatchTree& tree, std::vector<RawLink>& links) {
     }
 }
 
-void renumber(const std::vector<NodeId>& number, RefinedLinks& refined) {
-    const auto to = [&](NodeId n) { return number[static_cast<std::size_t>(n)]; };
-    for (RawLink& l : refined.links) {
-        l.receiver = to(l.receiver);
-        l.source = to(l.source);
-    }
-    for (LinkedPair& p : refined.pairs) {
-        p.a = to(p.a);
-        p.b = to(p.b);
-    }
-}
-
 }  // namespace
 
 Model build_model(const Scene& scene, const Options& options, Progress& progress) {
@@ -161,7 +149,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
 
     std::vector<NodeId> number;
     model.tree = growing.finish(scene, number);
-    renumber(number, refined);
+    refined.renumber(number);
     model.warnings = find_buried_patches(scene, model.rays, model.tree, progress);
     drop_buried(model.tree, refined.links);
     model.hierarchy_seconds += watch.lap();

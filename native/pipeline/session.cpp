@@ -9,8 +9,8 @@
 #include "pipeline/choose_solver.h"
 #include "pipeline/model.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/transport_input.h"
 #include "scene/validate.h"
-#include "solve/transport_input.h"
 
 namespace antiradiance {
 
@@ -84,12 +84,11 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
     std::vector<vec3> irradiance(model.tree.size(), vec3(0));
     if (model.tree.size() > 0) {
         progress.begin_stage("Solving", 0.6F, 0.75F);
-        const TransportInput input = transport_input(model.tree, leaf_direct, options.direct_light);
+        const TransportInput input =
+            make_transport_input(model.tree, leaf_direct, options.direct_light);
         SolveOptions solve;
         solve.iterations = options.iterations;
-        SolverRun run = solve_transport(
-            options.solver, {model.tree, model.links, input.source, input.albedo, model.row_scale},
-            solve, progress);
+        SolverRun run = solve_transport(options.solver, input.problem(model), solve, progress);
         Solution& solution = run.solution;
         if (!run.warning.empty()) report.warnings.push_back(run.warning);
         report.solve = {solution.backend,

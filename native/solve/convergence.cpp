@@ -18,7 +18,9 @@ bool ConvergenceControl::done() const {
     return converged() || passes() >= options_.max_iterations;
 }
 
-void ConvergenceControl::next_pass(float residual) {
+void ConvergenceControl::next_pass(float change, float gained) {
+    const float nothing = change > 0 ? 1.0F : 0.0F;
+    const float residual = gained > 0 ? change / gained : nothing;
     residuals_.push_back(residual);
     ++passes_since_damped_;
     if (options_.iterations > 0 || passes_since_damped_ <= kPatience) return;

@@ -13,8 +13,10 @@ public:
     explicit ConvergenceControl(const SolveOptions& options) : options_(options) {}
 
     [[nodiscard]] bool done() const;
-    // residual: largest change of L that the pass asked for, before damping, over the largest L.
-    void next_pass(float residual);
+    // change: largest change of L that the pass asked for, before damping; gained: largest share of
+    // an L that came over links. Against the largest L itself the change of a room lit by a small
+    // bright lamp would look settled at once.
+    void next_pass(float change, float gained);
 
     // Weight of a new value against the old one for the next pass: 1 until the residual stalls,
     // then halved. A link mesh whose antiradiance has cycles may have a spectral radius above 1.

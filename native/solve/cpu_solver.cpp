@@ -35,7 +35,8 @@ public:
             progress.report(control.progress());
             transport.gather(solution.radiance, sweep, control.damping(), progress);
             solution.irradiance = transport.leaf_irradiance();
-            control.next_pass(update_radiance(problem, control.damping(), solution));
+            const Update update = update_radiance(problem, control.damping(), solution);
+            control.next_pass(update.change, update.gained);
         }
         solution.iterations = control.passes();
         solution.residual = control.residual();
@@ -48,24 +49,27 @@ public:
     }
 
 private:
-    // K of Eq. 3 for diffuse surfaces, and the pull. Returns the largest change of L over the
-    // largest L.
-    static float update_radiance(const TransportProblem& problem, float damping,
-                                 Solution& solution) {
-        float change = 0;
-        float largest = 0;
+    struct Update {
+        float change = 0;  // largest of L
+        float gained = 0;  // largest difference of L from its source
+    };
+    // K of Eq. 3 for diffuse surfaces, and the pull.
+    static Update update_radiance(const TransportProblem& problem, float damping,
+                                  Solution& solution) {
+        Update update;
         for (const NodeId leaf : problem.tree.leaves) {
             const auto n = static_cast<std::size_t>(leaf);
             solution.irradiance[n] *= problem.row_scale[n];
             const vec3 reflected = problem.albedo[n] * kInvPi * solution.irradiance[n];
             const vec3 next = glm::max(vec3(0), problem.source[n] + reflected);
             const vec3 difference = next - solution.radiance[n];
-            change = std::max(change, max_component(glm::abs(difference)));
-            largest = std::max(largest, max_component(next));
+            update.change = std::max(update.change, max_component(glm::abs(difference)));
+            update.gained =
+                std::max(update.gained, max_component(glm::abs(next - problem.source[n])));
             solution.radiance[n] += damping * difference;
         }
         pull_area_average<vec3>(problem.tree, solution.radiance);
-        return largest > 0 ? change / largest : 0.0F;
+        return update;
     }
 };
 

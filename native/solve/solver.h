@@ -33,7 +33,7 @@ struct SolveOptions {
     // 0: until the residual is below `tolerance`. Else that many passes of the paper's Jacobi
     // scheme (L and A together), the same on every back end.
     int iterations = 0;
-    float tolerance = 1e-4F;   // largest change of L between passes / largest L
+    float tolerance = 1e-4F;   // of the residual
     int max_iterations = 200;  // of the converging scheme
 };
 
@@ -41,7 +41,7 @@ struct Solution {
     std::vector<vec3> irradiance;  // #nodes: W/m2 gathered over links by leaves (0 elsewhere)
     std::vector<vec3> radiance;    // #nodes: W/(m2 sr), L of Eq. 3, area average of the leaves
     int iterations = 0;            // full passes over the links
-    float residual = 0;            // max |L' - L| / max L of the last pass
+    float residual = 0;            // max |L' - L| / max |L' - source| of the last pass
     bool converged = false;        // residual below tolerance; a fixed count reports it too
     double seconds = 0;            // iterations only
     std::string backend;           // "CPU" or "OPENGL"

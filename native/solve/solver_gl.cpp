@@ -115,8 +115,7 @@ void GlSolver::iterate(Device& device, const SolveOptions& options, Progress& pr
         });
         const glsl::PassState state =
             device.run([](TransportDevice& d, GlContext&) { return d.state(); });
-        const float largest = max_component(state.max_radiance);
-        control.next_pass(largest > 0 ? state.max_change / largest : 0);
+        control.next_pass(state.max_change, max_component(state.max_gained));
         device.run([&](TransportDevice& d, GlContext&) { d.set_relaxation(control.damping()); });
     }
     solution.iterations = control.passes();

@@ -24,6 +24,7 @@ static_assert(sizeof(Node) == 16 && offsetof(Node, subtree_end) == 4 && offsetof
 static_assert(sizeof(Leaf) == 32 && offsetof(Leaf, node) == 12 &&
               offsetof(Leaf, reflectance) == 16 && offsetof(Leaf, row_scale) == 28);
 static_assert(sizeof(SurfaceNode) == 16 && offsetof(SurfaceNode, node) == 12);
-static_assert(sizeof(PassState) == 16 && offsetof(PassState, max_change) == 12);
+static_assert(sizeof(PassState) == 32 && offsetof(PassState, max_change) == 12 &&
+              offsetof(PassState, max_gained) == 16 && offsetof(PassState, unused) == 28);
 
 }  // namespace antiradiance::glsl

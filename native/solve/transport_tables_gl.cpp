@@ -75,7 +75,7 @@ void fill_nodes(const PatchTree& tree, NodeTables& tables) {
 
 void fill_radiance(const TransportProblem& problem, NodeTables& tables) {
     tables.radiance.assign(tables.nodes.size(), vec4(0));
-    tables.state = {vec3(0), 0};
+    tables.state = {vec3(0), 0, vec3(0), 0};
     for (const NodeId leaf : problem.tree.leaves) {
         const std::size_t n = index(leaf);
         tables.leaves.push_back(

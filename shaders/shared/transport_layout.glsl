@@ -67,6 +67,8 @@ struct SurfaceNode {
 struct PassState {
     vec3 max_radiance;  // over the leaves, W/(m2 sr)
     float max_change;   // of a leaf's radiance in any colour, before relaxation
+    vec3 max_gained;    // of what links have added to or taken from a leaf's source
+    float unused;
 };
 
 // First and second directional moments: x, y, z, xx, yy, zz, xy, xz, yz.

@@ -3,6 +3,7 @@
 // Eq. 3 at a leaf: L = source + albedo / pi E, with the irradiance of all patches it is a part of.
 #include "shared/items.glsl"
 #include "shared/nodes.glsl"
+#include "shared/pass_state.glsl"
 
 layout(local_size_x = kWorkGroupSize) in;
 layout(location = kRelaxationLocation) uniform float relaxation;
@@ -11,9 +12,9 @@ layout(std430, binding = kRadianceBinding) buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = kIrradianceBinding) buffer Irradiance { vec4 irradiance[]; };
 layout(std430, binding = kStateBinding) writeonly buffer State { PassState states[]; };
 
-shared vec4 partial_max[kWorkGroupSize];  // radiance, change
+shared PassState partial[kWorkGroupSize];
 
-vec4 reflect_leaf(Leaf leaf) {
+PassState reflect_leaf(Leaf leaf) {
     vec3 e = vec3(0.0);
     for (int n = leaf.node; is_patch(n); n = nodes[n].parent) e += irradiance[n].rgb;
     e *= leaf.row_scale;
@@ -24,21 +25,23 @@ vec4 reflect_leaf(Leaf leaf) {
     vec3 relaxed = mix(old.rgb, reflected, relaxation);
     radiance[leaf.node] = vec4(relaxed, old.w);
     vec3 change = abs(reflected - old.rgb);
-    return vec4(relaxed, max(change.r, max(change.g, change.b)));
+    return PassState(relaxed, max(change.r, max(change.g, change.b)),
+                     abs(reflected - leaf.source), 0.0);
 }
 
 void main() {
     uint item;
     uint lane = gl_LocalInvocationID.x;
-    partial_max[lane] = select_item(item) ? reflect_leaf(leaves[item]) : vec4(0.0);
+    partial[lane] = kNothing;
+    if (select_item(item)) partial[lane] = reflect_leaf(leaves[item]);
     for (uint half_size = uint(kWorkGroupSize) / 2u; half_size > 0u; half_size /= 2u) {
         barrier();
         if (lane < half_size) {
-            partial_max[lane] = max(partial_max[lane], partial_max[lane + half_size]);
+            partial[lane] = largest(partial[lane], partial[lane + half_size]);
         }
     }
     if (lane == 0u) {
         uint group = first_item / uint(kWorkGroupSize) + gl_WorkGroupID.x;
-        states[1u + group] = PassState(partial_max[0].rgb, partial_max[0].w);
+        states[1u + group] = partial[0];
     }
 }

@@ -133,7 +133,7 @@ private:
                 gathered[at(t_.surface_node[s])] += from_clusters(t_.surface_node[s]);
             }
         }
-        double change = 0, largest = 0;
+        double change = 0, gained = 0;
         for (const NodeId leaf : t_.leaves) {
             dvec3 e(0);
             for (NodeId n = leaf; is_patch(n); n = t_.parent[at(n)])
@@ -145,11 +145,12 @@ private:
                 dvec3(0));
             for (int c = 0; c < 3; ++c) {
                 change = std::max(change, std::abs(next[c] - radiance[at(leaf)][c]));
-                largest = std::max(largest, next[c]);
+                gained = std::max(gained,
+                                  std::abs(next[c] - static_cast<double>(p_.source[at(leaf)][c])));
             }
             radiance[at(leaf)] = next;
         }
-        residual = largest > 0 ? change / largest : 0;
+        residual = gained > 0 ? change / gained : 0;
         pull();
     }
     [[nodiscard]] dvec3 from_clusters(NodeId surface) const {
