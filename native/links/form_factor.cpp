@@ -8,8 +8,10 @@
 namespace antiradiance {
 
 float point_form_factor(const vec3& point, const vec3& normal, std::span<const vec3> corners) {
-    // Clip at the horizon (Sutherland & Hodgman 1974); one plane adds one corner at most.
-    std::array<vec3, 5> v;
+    // Clip at the horizon (Sutherland & Hodgman 1974); a plane adds one corner to a convex polygon,
+    // but the heights of a needle's corners may alternate in sign by rounding: 4 edges that cross,
+    // between them 2 corners above.
+    std::array<vec3, 6> v;
     std::size_t count = 0;
     vec3 from = corners.back() - point;
     float from_height = glm::dot(from, normal);
