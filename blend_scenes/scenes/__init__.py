@@ -1,7 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The project's scenes; `SCENES` maps the name of each .blend to the function that builds it."""
+"""The project's scenes; `SCENES` maps the name of each .blend to the function that builds it.
 
-from . import corridor, cornell_box, desks, geometry_zoo, lamps, office, two_rooms
+`MODELS` are made from files that are no part of the project: their functions take the folder of
+the model, which bears the scene's name. What is made from `NOT_SHIPPED` must not be either.
+"""
+
+from . import (
+    corridor,
+    cornell_box,
+    desks,
+    geometry_zoo,
+    lamps,
+    modern_hall,
+    office,
+    soda_hall,
+    two_rooms,
+)
 
 SCENES = {
     "cornell_box": cornell_box.build,
@@ -15,3 +29,10 @@ SCENES = {
     "office": office.build,
     "two_rooms": two_rooms.build,
 }
+
+MODELS = {
+    "modern_hall": modern_hall.build,
+    "soda_hall": soda_hall.build,
+}
+
+NOT_SHIPPED = {"soda_hall"}

@@ -11,11 +11,13 @@ namespace antiradiance {
 
 namespace {
 
-constexpr int kFewestRays = 24;       // per side
-constexpr int kMostRays = 384;        // per side
-constexpr int kRaysForAll = 400'000;  // shared out by area
-constexpr int kLampRays = 16'384;     // per lamp
-constexpr int kSunPoints = 8;         // per side and sun
+constexpr int kFewestRays = 24;        // per side
+constexpr int kMostRays = 384;         // per side
+constexpr int kRaysForAll = 400'000;   // shared out by area
+constexpr int kLampRays = 16'384;      // per lamp
+constexpr int kFewestLampRays = 1024;  // where many lamps share
+constexpr int kRaysForAllLamps = 500'000;
+constexpr int kSunPoints = 8;  // per side and sun
 // One ray alone may have slipped through the seam of two walls.
 constexpr int kConnectionsToLight = 2;
 
@@ -86,22 +88,22 @@ public:
             .emits();
     }
 
-    [[nodiscard]] bool sees_sun(Side side, const Lamp& sun) const {
-        const vec3 to_sun = glm::normalize(vec3(sun.to_world[2]));
-        if (glm::dot(to_sun, normal(side)) <= 0) return false;
-        for (std::uint32_t i = 0; i < kSunPoints; ++i) {
-            const vec3 p = point(side, r2_sample(i, static_cast<std::uint32_t>(side)));
-            if (rays_.escapes(p, to_sun)) return true;
-        }
-        return false;
+    [[nodiscard]] bool sees_any_sun(Side side) const {
+        return std::any_of(scene_.lamps.begin(), scene_.lamps.end(), [&](const Lamp& lamp) {
+            return lamp.type == LampType::kSun && sees_sun(side, lamp);
+        });
     }
 
-    // Sides that a lamp's rays end on.
+    // Sides that a lamp's rays end on; in a room full of lamps each needs fewer of them, since what
+    // one misses another finds, or the light that spreads from side to side.
     void shine(const Lamp& lamp, std::uint32_t index, std::vector<Side>& out) const {
         const Frame frame(glm::normalize(-vec3(lamp.to_world[2])));
         const vec3 x(lamp.to_world[0]);
         const vec3 y(lamp.to_world[1]);
-        for (std::uint32_t i = 0; i < kLampRays; ++i) {
+        const auto lamps = static_cast<int>(scene_.lamps.size());
+        const auto count = static_cast<std::uint32_t>(
+            std::clamp(kRaysForAllLamps / lamps, kFewestLampRays, kLampRays));
+        for (std::uint32_t i = 0; i < count; ++i) {
             const vec2 u = r2_sample(i, 2 * index + 1);
             vec3 origin(lamp.to_world[3]);
             vec3 direction;
@@ -123,6 +125,16 @@ public:
     }
 
 private:
+    [[nodiscard]] bool sees_sun(Side side, const Lamp& sun) const {
+        const vec3 to_sun = glm::normalize(vec3(sun.to_world[2]));
+        if (glm::dot(to_sun, normal(side)) <= 0) return false;
+        for (std::uint32_t i = 0; i < kSunPoints; ++i) {
+            const vec3 p = point(side, r2_sample(i, static_cast<std::uint32_t>(side)));
+            if (rays_.escapes(p, to_sun)) return true;
+        }
+        return false;
+    }
+
     [[nodiscard]] const Polygon& polygon(Side side) const {
         return polygons_[static_cast<std::size_t>(side / 2)];
     }
@@ -179,21 +191,22 @@ std::vector<std::array<bool, 2>> find_lit_sides(const Scene& scene, const RaySce
     }
     std::sort(connections.begin(), connections.end());
 
+    std::vector<std::vector<Side>> lit_by(scene.lamps.size());
+    parallel_for(scene.lamps.size(), progress, [&](std::size_t i) {
+        if (scene.lamps[i].type != LampType::kSun)
+            graph.shine(scene.lamps[i], static_cast<std::uint32_t>(i), lit_by[i]);
+    });
     std::vector<Side> seeds;
-    for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
-        const Lamp& lamp = scene.lamps[i];
-        if (lamp.type == LampType::kSun) {
-            for (std::size_t side = 0; side < side_count; ++side) {
-                if (graph.sees_sun(static_cast<Side>(side), lamp))
-                    seeds.push_back(static_cast<Side>(side));
-            }
-        } else {
-            graph.shine(lamp, static_cast<std::uint32_t>(i), seeds);
-        }
-        progress.check();
-    }
+    for (const std::vector<Side>& sides : lit_by)
+        seeds.insert(seeds.end(), sides.begin(), sides.end());
+    std::vector<char> shines(side_count, 0);
+    parallel_for_blocks(side_count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t side = begin; side < end; ++side)
+            shines[side] =
+                graph.emits(static_cast<Side>(side)) || graph.sees_any_sun(static_cast<Side>(side));
+    });
     for (std::size_t side = 0; side < side_count; ++side) {
-        if (graph.emits(static_cast<Side>(side))) seeds.push_back(static_cast<Side>(side));
+        if (shines[side]) seeds.push_back(static_cast<Side>(side));
     }
 
     const std::vector<char> lit = spread(side_count, connections, seeds);

@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kBlock = 256;         // pairs handed to a thread at once
 constexpr std::size_t kEnoughPairs = 2048;  // to share out between threads
 constexpr float kStraddlingShare = 0.25F;   // of eps
+constexpr float kMostNegligible = 8;        // eps, of a form factor whose exchange is negligible
 constexpr int kNearGrid = 4;                // points along a side of the source of a touching pair
 constexpr float kLeastBinShare =
     0.02F;  // of a touching link's form factor: smaller bins are dropped
@@ -151,8 +152,8 @@ private:
         const float reach = a.radius + b.radius;
         v.touching = d2 < reach * reach;
         const bool straddles = a_side == PlaneSide::kStraddles || b_side == PlaneSide::kStraddles;
-        if ((v.touching || !small_enough(a, b, d, d2, straddles)) && split_larger(a, b, v))
-            return v;
+        const bool fine = v.touching ? both_negligible(a, b) : small_enough(a, b, d, d2, straddles);
+        if (!fine && split_larger(a, b, v)) return v;
         v.action = Verdict::kLink;
         return v;
     }
@@ -178,6 +179,7 @@ private:
         const float solid_b = b.area * cos_b / d2;
         const float eps = options_.link_threshold * kPi * (straddles ? kStraddlingShare : 1.0F) *
                           (emits(a) || emits(b) ? options_.emitter_share : 1.0F);
+        if (negligible(solid_a * cos_b * b.area, std::min(a.area, b.area), eps)) return true;
         return solid_a * cos_b < eps && solid_b * cos_a < eps && solid_a < widest_ &&
                solid_b < widest_;
     }
@@ -185,6 +187,24 @@ private:
     [[nodiscard]] bool emits(const GrowingNode& patch) const {
         return tree_.surfaces()[static_cast<std::size_t>(patch.surface)].emits;
     }
+
+    // Slivers and the small parts of a detailed model: what two of them exchange is less than what
+    // the oracle lets through between two patches of the least size, whatever their form factors
+    // (refinement by B F A, Hanrahan, Salzman & Aupperle 1991). Antiradiance needs the direction of
+    // every link, so that IMPLICIT can't do without the size of both ends.
+    // exchange: pi A F, m2; eps: pi times the threshold.
+    [[nodiscard]] bool negligible(float exchange, float smaller_area, float eps) const {
+        return !options_.antiradiance && exchange < eps * least_area() &&
+               exchange < kMostNegligible * eps * smaller_area;
+    }
+
+    // Touching ends have no form factor to go by, but 1 is the most.
+    [[nodiscard]] bool both_negligible(const GrowingNode& a, const GrowingNode& b) const {
+        const float most = options_.link_threshold * least_area();
+        return !options_.antiradiance && a.area < most && b.area < most;
+    }
+
+    [[nodiscard]] float least_area() const { return options_.least_edge * options_.least_edge; }
 
     [[nodiscard]] Verdict decide_clusters(const GrowingNode& a, const GrowingNode& b) const {
         Verdict v;
@@ -223,6 +243,7 @@ private:
         const bool straddles = (!a.is_cluster() && std::abs(glm::dot(d, a.normal)) < b.radius) ||
                                (!b.is_cluster() && std::abs(glm::dot(d, b.normal)) < a.radius);
         const float eps = options_.link_threshold * kPi * (straddles ? kStraddlingShare : 1.0F);
+        if (negligible(face(a) * face(b) / d2, std::min(face(a), face(b)), eps)) return true;
         return face(a) < eps * d2 && face(b) < eps * d2 && face(a) < widest_ * d2 &&
                face(b) < widest_ * d2;
     }
@@ -277,7 +298,8 @@ private:
         }
         const float ff = patch_form_factor(s, r, minus);
         if (ff <= 0) return;
-        if (!touching) {
+        // The direction of light between patches matters to antiradiance alone.
+        if (!touching || !options_.antiradiance) {
             add(receiver, source, ff, minus, bins_.bin(d), out);
             return;
         }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <map>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -12,6 +14,7 @@
 #include "hierarchy/lit_sides.h"
 #include "hierarchy/surfaces.h"
 #include "links/build_link_set.h"
+#include "links/estimate_links.h"
 #include "links/refine.h"
 #include "links/visibility.h"
 #include "pipeline/stopwatch.h"
@@ -39,6 +42,10 @@ constexpr double kBytesPerPatch = 600;
 constexpr double kBytesPerLink = 56;
 constexpr double kLinksPerPatch = 60;
 constexpr double kMemoryShare = 0.8;  // of what is available
+
+// IMPLICIT says beforehand when it will take more links than this, and how long at this rate.
+constexpr double kManyLinks = 20e6;
+constexpr double kLinksPerSecond = 1e6;  // from refinement to the solution, 2 cores
 
 std::string gibibytes(double bytes) {
     char text[32];
@@ -108,9 +115,50 @@ RefineOptions refine_options(const Options& options, float patch_size, std::size
     // As fine as direction_bins asks for, whatever the links are sorted by.
     refine.bin_share = static_cast<float>(link_bins(options, refine.cluster_links)) /
                        static_cast<float>(options.direction_bins);
-    refine.most_links = static_cast<std::size_t>(
-        kMemoryShare * static_cast<double>(available_memory_bytes()) / kBytesPerLink);
+    refine.most_links = static_cast<std::size_t>(std::min(
+        kMemoryShare * static_cast<double>(available_memory_bytes()) / kBytesPerLink,
+        static_cast<double>(std::numeric_limits<std::uint32_t>::max())));  // links are numbered so
+>>>>>>> w-halls
     return refine;
+}
+
+std::string object_of_most(const Scene& scene, const std::vector<Surface>& surfaces) {
+    std::map<std::int32_t, std::size_t> count;
+    for (const Surface& s : surfaces) {
+        if (s.object != kNone) ++count[s.object];
+    }
+    const auto most =
+        std::max_element(count.begin(), count.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == count.end() ? "lamps"
+                               : scene.objects[static_cast<std::size_t>(most->first)].name;
+}
+
+// Antiradiance has no clusters: every surface links with every other that it can see, and a
+// detailed model may be too much for it. Returns what to tell the artist before the work starts,
+// empty where it is no burden; throws where the links can't fit into memory.
+std::string check_implicit_links(const Scene& scene, const GrowingTree& tree,
+                                 const RefineOptions& refine) {
+    if (!refine.antiradiance) return {};
+    const double links = estimate_links_without_clusters(tree);
+    if (links < kManyLinks) return {};
+    char millions[32];
+    std::snprintf(millions, sizeof(millions), "%.0f million", links / 1e6);
+    const std::string what =
+        "Visibility Implicit links each of " + std::to_string(tree.surfaces().size()) +
+        " surfaces, most of them of '" + object_of_most(scene, tree.surfaces()) +
+        "', with every other: at least " + millions + " links, " +
+        gibibytes(links * kBytesPerLink) + " of memory";
+    const std::string cure =
+        ". Set Visibility to Explicit, which links groups of surfaces, or simplify the object";
+    if (links > static_cast<double>(refine.most_links)) {
+        throw SceneError(what + "; " +
+                         gibibytes(static_cast<double>(refine.most_links) * kBytesPerLink) +
+                         " are free" + cure);
+    }
+    char minutes[32];
+    std::snprintf(minutes, sizeof(minutes), " and %.1f minutes", links / kLinksPerSecond / 60);
+    return what + minutes + cure;
 }
 
 // Buried leaves take no part: no link may start or end at one.
@@ -139,10 +187,11 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     check_memory(scene, surfaces, patch_size);
     const RefineOptions refine = refine_options(options, patch_size, surfaces.size());
     GrowingTree growing(std::move(surfaces));
+    const std::string burden = check_implicit_links(scene, growing, refine);
     growing.split_to(patch_size);
     model.hierarchy_seconds = watch.lap();
 
-    progress.begin_stage("Linking patches", 0.1F, 0.25F);
+    progress.begin_stage(burden.empty() ? "Linking patches" : burden, 0.1F, 0.25F);
     const DirectionBins bins(link_bins(options, refine.cluster_links));
     RefinedLinks refined = refine_links(growing, bins, refine, progress);
     model.links_seconds = watch.lap();
@@ -151,6 +200,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     model.tree = growing.finish(scene, number);
     refined.renumber(number);
     model.warnings = find_buried_patches(scene, model.rays, model.tree, progress);
+    if (!burden.empty()) model.warnings.push_back(burden);
     drop_buried(model.tree, refined.links);
     model.hierarchy_seconds += watch.lap();
 

@@ -16,6 +16,8 @@ sys.path.insert(0, str(IMAGES))
 from compare import block_means, compare, compare_files, read_rgb  # noqa: E402
 
 REFERENCES = json.loads((IMAGES / "references.json").read_text())
+MODELS = {"modern_hall"}  # not of this project's making: test_halls.py
+SCENES = [name for name in REFERENCES if name not in MODELS]
 
 MODES = {
     "EXPLICIT": {"visibility": "EXPLICIT"},
@@ -88,7 +90,7 @@ def test_every_scene_has_a_reference():
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("scene", REFERENCES)
+@pytest.mark.parametrize("scene", SCENES)
 def test_like_cycles(pictures, scene, mode):
     floor = FLOORS.get(scene, LIMITS).of(mode)
     assert floor <= LIMITS.of(mode)
