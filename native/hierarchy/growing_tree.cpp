@@ -253,7 +253,8 @@ GrowingTree::Estimate GrowingTree::estimate_patches(std::span<const Surface> sur
         }
         // Halvings until the longest edge fits; elongated shapes need fewer leaves than a square's.
         const double halvings = std::max(0.0, std::ceil(std::log2(longest / max_edge)));
-        const double width = 2.0 * glm::length(surface_area_vector(s)) / s.corner_count / longest;
+        const double width =
+            (s.corner_count == 4 ? 1.0 : 2.0) * static_cast<double>(surface_area(s)) / longest;
         const double across = std::max(0.0, std::ceil(std::log2(width / max_edge)));
         const double leaves = std::exp2(halvings + std::min(halvings, across));
         const double patches = leaves * 4 / 3 + 1;

@@ -2,6 +2,7 @@
 #include "hierarchy/lit_sides.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -11,27 +12,35 @@ namespace antiradiance {
 
 namespace {
 
-constexpr int kFewestRays = 24;        // per side
-constexpr int kMostRays = 384;         // per side
-constexpr int kRaysForAll = 400'000;   // shared out by area
-constexpr int kLampRays = 16'384;      // per lamp
-constexpr int kFewestLampRays = 1024;  // where many lamps share
-constexpr int kRaysForAllLamps = 500'000;
-constexpr int kSunPoints = 8;  // per side and sun
-// One ray alone may have slipped through the seam of two walls.
-constexpr int kConnectionsToLight = 2;
+constexpr int kFewestPaths = 24;        // from a side that emits or sees the sun
+constexpr int kMostPaths = 384;         // from a side
+constexpr int kPathsForAll = 200'000;   // shared out by area
+constexpr int kLampPaths = 16'384;      // per lamp
+constexpr int kFewestLampPaths = 1024;  // where many lamps share: what one misses another finds
+constexpr int kPathsForAllLamps = 500'000;
+constexpr std::size_t kBlock = 64;  // paths or sides that a thread takes at once
+constexpr std::size_t kMostBounces = 8;
+// One path alone may have slipped through the seam of two walls.
+constexpr std::uint32_t kPathsToLight = 2;
+constexpr int kViews = 16;        // from a side that no path has met
+constexpr int kViewsToLight = 4;  // of light
+constexpr int kMostRounds = 4;    // in which sides get light from those of the round before
 
 using Side = std::int32_t;  // 2 * polygon + (back ? 1 : 0)
 
-struct Connection {
-    Side from, to;
-    auto operator<=>(const Connection&) const = default;
-};
+vec2 random_point(std::uint32_t seed, std::uint32_t index) {
+    return {to_unit_float(hash_combine(seed, 2 * index)),
+            to_unit_float(hash_combine(seed, 2 * index + 1))};
+}
 
-class SideGraph {
+class SideLight {
 public:
-    SideGraph(const Scene& scene, const RayScene& rays, const std::vector<Polygon>& polygons)
-        : scene_(scene), rays_(rays), polygons_(polygons), polygon_of_(scene.triangles.size()) {
+    SideLight(const Scene& scene, const RayScene& rays, const std::vector<Polygon>& polygons)
+        : scene_(scene),
+          rays_(rays),
+          polygons_(polygons),
+          polygon_of_(scene.triangles.size()),
+          paths_(polygons.size() * 2, 0) {
         for (std::size_t p = 0; p < polygons.size(); ++p) {
             for (const TriangleId t : polygons[p].triangles) {
                 if (t != kNone)
@@ -39,17 +48,92 @@ public:
             }
             total_area_ += glm::length(polygons[p].area_vector());
         }
+        has_sun_ = std::any_of(scene.lamps.begin(), scene.lamps.end(),
+                               [](const Lamp& lamp) { return lamp.type == LampType::kSun; });
     }
 
+    [[nodiscard]] std::size_t side_count() const { return paths_.size(); }
+    [[nodiscard]] bool lit(std::size_t side) const { return paths_[side] >= kPathsToLight; }
+
+    // Paths from a side that emits, and from its points that see a sun.
+    void light_from(Side side) {
+        const float share = glm::length(polygon(side).area_vector()) / total_area_;
+        const int count =
+            std::clamp(static_cast<int>(share * kPathsForAll), kFewestPaths, kMostPaths);
+        const bool emitting = emits(side);
+        if (!emitting && !has_sun_) return;
+        if (emitting) add(side, kPathsToLight);
+        const Frame frame(normal(side));
+        for (int i = 0; i < count; ++i) {
+            const auto index = static_cast<std::uint32_t>(i);
+            const std::uint32_t seed = hash_combine(static_cast<std::uint32_t>(side), index);
+            const vec3 origin = point(side, random_point(seed, 0));
+            if (!emitting) {
+                if (!sees_sun(origin, frame.n)) continue;
+                add(side, 1);
+            }
+            follow(origin, frame.to_world(cosine_hemisphere(random_point(seed, 1))), seed);
+        }
+    }
+
+    // Path `index` of a lamp that is no sun.
+    void light_from(const Lamp& lamp, std::uint32_t lamp_index, std::uint32_t index) {
+        const Frame frame(glm::normalize(-vec3(lamp.to_world[2])));
+        const vec2 u = r2_sample(index, 2 * lamp_index + 1);
+        vec3 origin(lamp.to_world[3]);
+        vec3 direction;
+        if (lamp.type == LampType::kArea) {
+            const std::uint32_t seed = hash_combine(lamp_index, index);
+            const vec2 s = random_point(seed, 99) - 0.5F;
+            origin += vec3(lamp.to_world[0]) * (s.x * lamp.size.x) +
+                      vec3(lamp.to_world[1]) * (s.y * lamp.size.y);
+            direction = frame.to_world(cosine_hemisphere(u));
+        } else {
+            const float z = lamp.type == LampType::kSpot
+                                ? 1 - u.x * (1 - std::cos(std::min(lamp.spot_angle, kPi) / 2))
+                                : 1 - 2 * u.x;
+            const float r = std::sqrt(std::max(0.0F, 1 - z * z));
+            direction =
+                frame.to_world({r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z});
+        }
+        follow(origin, direction, hash_combine(~lamp_index, index));
+    }
+
+    // For sides too small for paths to meet: whether enough of what they see is lit. The point seen
+    // must itself see something lit, or the open: a floor is lit as a whole, but not below a block
+    // that stands on it, from where only the block's inside sees it.
+    [[nodiscard]] bool sees_light(Side side, std::uint32_t round) const {
+        int views = 0;
+        for (std::uint32_t i = 0; i < kViews; ++i) {
+            const std::uint32_t seed =
+                hash_combine(static_cast<std::uint32_t>(side), kViews * round + i);
+            const Frame frame(normal(side));
+            const vec3 origin = point(side, random_point(seed, 0));
+            const vec3 direction = frame.to_world(cosine_hemisphere(random_point(seed, 1)));
+            const RayHit seen = rays_.intersect(origin, direction);
+            if (!seen.hit() || !lit(static_cast<std::size_t>(side_of(seen)))) continue;
+            const Frame there(normal(side_of(seen)));
+            const RayHit next =
+                rays_.intersect(point_at(origin, direction, seen),
+                                there.to_world(cosine_hemisphere(random_point(seed, 2))));
+            if (!next.hit() || lit(static_cast<std::size_t>(side_of(next)))) ++views;
+        }
+        return views >= kViewsToLight;
+    }
+    void set_lit(Side side) { paths_[static_cast<std::size_t>(side)] = kPathsToLight; }
+
+private:
+    [[nodiscard]] const Polygon& polygon(Side side) const {
+        return polygons_[static_cast<std::size_t>(side / 2)];
+    }
     [[nodiscard]] Side side_of(const RayHit& hit) const {
         return 2 * polygon_of_[static_cast<std::size_t>(hit.triangle)] + (hit.back_side ? 1 : 0);
     }
-
     [[nodiscard]] vec3 normal(Side side) const {
         const vec3 n = glm::normalize(polygon(side).area_vector());
         return side % 2 ? -n : n;
     }
-
+    // A little above the side.
     [[nodiscard]] vec3 point(Side side, const vec2& u) const {
         const auto& c = polygon(side).corners;
         vec3 p;
@@ -59,115 +143,68 @@ public:
             const float root = std::sqrt(u.x);
             p = c[0] * (1 - root) + c[1] * (root * (1 - u.y)) + c[2] * (root * u.y);
         }
-        return p + normal(side) * rays_.epsilon();
+        return p + normal(side) * (2 * rays_.epsilon());
     }
-
-    // What a side sees: appended to `out`, both ways.
-    void look_around(Side side, std::vector<Connection>& out) const {
-        const float share = glm::length(polygon(side).area_vector()) / total_area_;
-        const int count =
-            std::clamp(static_cast<int>(share * kRaysForAll / 2), kFewestRays, kMostRays);
-        const Frame frame(normal(side));
-        const auto seed = static_cast<std::uint32_t>(side);
-        for (int i = 0; i < count; ++i) {
-            const auto index = static_cast<std::uint32_t>(i);
-            const vec3 direction = frame.to_world(cosine_hemisphere(r2_sample(index, 2 * seed)));
-            const RayHit hit =
-                rays_.intersect(point(side, r2_sample(index, 2 * seed + 1)), direction);
-            if (!hit.hit()) continue;
-            out.push_back({side, side_of(hit)});
-            out.push_back({side_of(hit), side});
-        }
+    [[nodiscard]] vec3 point_at(const vec3& origin, const vec3& direction,
+                                const RayHit& hit) const {
+        return origin + direction * hit.distance + normal(side_of(hit)) * (2 * rays_.epsilon());
     }
 
     [[nodiscard]] bool emits(Side side) const {
-        const TriangleId t = polygon(side).triangles[0];
-        return scene_
-            .materials[static_cast<std::size_t>(
-                scene_.triangle_material[static_cast<std::size_t>(t)])]
-            .emits();
+        const auto t = static_cast<std::size_t>(polygon(side).triangles[0]);
+        return scene_.materials[static_cast<std::size_t>(scene_.triangle_material[t])].emits();
     }
-
-    [[nodiscard]] bool sees_any_sun(Side side) const {
+    [[nodiscard]] bool sees_sun(const vec3& origin, const vec3& n) const {
         return std::any_of(scene_.lamps.begin(), scene_.lamps.end(), [&](const Lamp& lamp) {
-            return lamp.type == LampType::kSun && sees_sun(side, lamp);
+            if (lamp.type != LampType::kSun) return false;
+            const vec3 to_sun = glm::normalize(vec3(lamp.to_world[2]));
+            return glm::dot(to_sun, n) > 0 && rays_.escapes(origin, to_sun);
         });
     }
 
-    // Sides that a lamp's rays end on; in a room full of lamps each needs fewer of them, since what
-    // one misses another finds, or the light that spreads from side to side.
-    void shine(const Lamp& lamp, std::uint32_t index, std::vector<Side>& out) const {
-        const Frame frame(glm::normalize(-vec3(lamp.to_world[2])));
-        const vec3 x(lamp.to_world[0]);
-        const vec3 y(lamp.to_world[1]);
-        const auto lamps = static_cast<int>(scene_.lamps.size());
-        const auto count = static_cast<std::uint32_t>(
-            std::clamp(kRaysForAllLamps / lamps, kFewestLampRays, kLampRays));
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const vec2 u = r2_sample(i, 2 * index + 1);
-            vec3 origin(lamp.to_world[3]);
-            vec3 direction;
-            if (lamp.type == LampType::kArea) {
-                const vec2 s = r2_sample(i, 2 * index) - 0.5F;
-                origin += x * (s.x * lamp.size.x) + y * (s.y * lamp.size.y);
-                direction = frame.to_world(cosine_hemisphere(u));
-            } else {
-                const float z = lamp.type == LampType::kSpot
-                                    ? 1 - u.x * (1 - std::cos(std::min(lamp.spot_angle, kPi) / 2))
-                                    : 1 - 2 * u.x;
-                const float r = std::sqrt(std::max(0.0F, 1 - z * z));
-                direction =
-                    frame.to_world({r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z});
-            }
+    void add(Side side, std::uint32_t paths) {
+        std::atomic_ref(paths_[static_cast<std::size_t>(side)])
+            .fetch_add(paths, std::memory_order_relaxed);
+    }
+    // Counts a path for every side that it meets, reflecting it as a white diffuse surface would.
+    void follow(vec3 origin, vec3 direction, std::uint32_t seed) {
+        std::array<Side, kMostBounces> met;
+        for (std::uint32_t bounce = 0; bounce < kMostBounces; ++bounce) {
             const RayHit hit = rays_.intersect(origin, direction);
-            if (hit.hit()) out.push_back(side_of(hit));
+            if (!hit.hit()) return;
+            const Side side = side_of(hit);
+            if (std::find(met.begin(), met.begin() + bounce, side) == met.begin() + bounce)
+                add(side, 1);
+            met[bounce] = side;
+            const Frame frame(normal(side));
+            origin = point_at(origin, direction, hit);
+            direction = frame.to_world(cosine_hemisphere(random_point(seed, 2 + bounce)));
         }
-    }
-
-private:
-    [[nodiscard]] bool sees_sun(Side side, const Lamp& sun) const {
-        const vec3 to_sun = glm::normalize(vec3(sun.to_world[2]));
-        if (glm::dot(to_sun, normal(side)) <= 0) return false;
-        for (std::uint32_t i = 0; i < kSunPoints; ++i) {
-            const vec3 p = point(side, r2_sample(i, static_cast<std::uint32_t>(side)));
-            if (rays_.escapes(p, to_sun)) return true;
-        }
-        return false;
-    }
-
-    [[nodiscard]] const Polygon& polygon(Side side) const {
-        return polygons_[static_cast<std::size_t>(side / 2)];
     }
 
     const Scene& scene_;
     const RayScene& rays_;
     const std::vector<Polygon>& polygons_;
     std::vector<std::int32_t> polygon_of_;  // #triangles
+    std::vector<std::uint32_t> paths_;      // #sides: light paths that have met it
     float total_area_ = 0;
+    bool has_sun_ = false;
 };
 
-// Lights sides from `seeds` along the connections (sorted by `from`).
-std::vector<char> spread(std::size_t side_count, const std::vector<Connection>& connections,
-                         const std::vector<Side>& seeds) {
-    std::vector<char> lit(side_count, 0);
-    std::vector<int> received(side_count, 0);
-    std::vector<Side> work;
-    const auto light = [&](Side side) {
-        if (lit[static_cast<std::size_t>(side)]) return;
-        lit[static_cast<std::size_t>(side)] = 1;
-        work.push_back(side);
-    };
-    for (const Side s : seeds)
-        light(s);
-    while (!work.empty()) {
-        const Side from = work.back();
-        work.pop_back();
-        auto c = std::lower_bound(connections.begin(), connections.end(), Connection{from, 0});
-        for (; c != connections.end() && c->from == from; ++c) {
-            if (++received[static_cast<std::size_t>(c->to)] >= kConnectionsToLight) light(c->to);
-        }
+// Sides that see light in spite of having met no path; true when there were any.
+bool light_by_views(SideLight& light, std::uint32_t round, Progress& progress) {
+    std::vector<char> found(light.side_count(), 0);
+    parallel_for_blocks(light.side_count(), kBlock, progress,
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t side = begin; side < end; ++side) {
+                                if (!light.lit(side))
+                                    found[side] = light.sees_light(static_cast<Side>(side), round);
+                            }
+                        });
+    for (std::size_t side = 0; side < found.size(); ++side) {
+        if (found[side]) light.set_lit(static_cast<Side>(side));
     }
-    return lit;
+    return std::find(found.begin(), found.end(), 1) != found.end();
 }
 
 }  // namespace
@@ -175,44 +212,31 @@ std::vector<char> spread(std::size_t side_count, const std::vector<Connection>& 
 std::vector<std::array<bool, 2>> find_lit_sides(const Scene& scene, const RayScene& rays,
                                                 const std::vector<Polygon>& polygons,
                                                 Progress& progress) {
-    const SideGraph graph(scene, rays, polygons);
-    const std::size_t side_count = polygons.size() * 2;
-
-    constexpr std::size_t kBlock = 64;
-    std::vector<std::vector<Connection>> found((side_count + kBlock - 1) / kBlock);
-    parallel_for_blocks(side_count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t side = begin; side < end; ++side)
-            graph.look_around(static_cast<Side>(side), found[begin / kBlock]);
-    });
-    std::vector<Connection> connections;
-    for (auto& block : found) {
-        connections.insert(connections.end(), block.begin(), block.end());
-        block = {};
+    SideLight light(scene, rays, polygons);
+    const auto lamp_paths = static_cast<std::size_t>(
+        std::clamp(kPathsForAllLamps / std::max(1, static_cast<int>(scene.lamps.size())),
+                   kFewestLampPaths, kLampPaths));
+    for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
+        const Lamp& lamp = scene.lamps[i];
+        if (lamp.type == LampType::kSun || max_component(lamp.power) <= 0) continue;
+        parallel_for_blocks(lamp_paths, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t path = begin; path < end; ++path)
+                light.light_from(lamp, static_cast<std::uint32_t>(i),
+                                 static_cast<std::uint32_t>(path));
+        });
     }
-    std::sort(connections.begin(), connections.end());
-
-    std::vector<std::vector<Side>> lit_by(scene.lamps.size());
-    parallel_for(scene.lamps.size(), progress, [&](std::size_t i) {
-        if (scene.lamps[i].type != LampType::kSun)
-            graph.shine(scene.lamps[i], static_cast<std::uint32_t>(i), lit_by[i]);
-    });
-    std::vector<Side> seeds;
-    for (const std::vector<Side>& sides : lit_by)
-        seeds.insert(seeds.end(), sides.begin(), sides.end());
-    std::vector<char> shines(side_count, 0);
-    parallel_for_blocks(side_count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t side = begin; side < end; ++side)
-            shines[side] =
-                graph.emits(static_cast<Side>(side)) || graph.sees_any_sun(static_cast<Side>(side));
-    });
-    for (std::size_t side = 0; side < side_count; ++side) {
-        if (shines[side]) seeds.push_back(static_cast<Side>(side));
+    parallel_for_blocks(light.side_count(), kBlock, progress,
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t side = begin; side < end; ++side)
+                                light.light_from(static_cast<Side>(side));
+                        });
+    for (std::uint32_t round = 0; round < kMostRounds; ++round) {
+        if (!light_by_views(light, round, progress)) break;
     }
 
-    const std::vector<char> lit = spread(side_count, connections, seeds);
     std::vector<std::array<bool, 2>> result(polygons.size());
     for (std::size_t p = 0; p < polygons.size(); ++p)
-        result[p] = {lit[2 * p] != 0, lit[2 * p + 1] != 0};
+        result[p] = {light.lit(2 * p), light.lit(2 * p + 1)};
     return result;
 }
 

@@ -13,10 +13,11 @@ namespace antiradiance {
 // Which sides of the polygons any light path can reach.                 // #polygons: front, back
 //
 // Every polygon side is its own candidate: guessing whether a mesh is closed fails on rooms made
-// from one cube, on flipped normals and on single planes. Cosine-distributed rays from every side
-// tell which sides see each other (a symmetric relation); from the lamps and the emissive sides the
-// light then spreads along it. A side that no light reaches takes no part in the transport: it is
-// the inside of a solid or the far face of a wall, and would only leak.
+// from one cube, on flipped normals and on single planes. Paths of light from the lamps, the
+// emissive sides and what the sun shines on tell where light gets to, from point to point, so that
+// the lit part of a floor lights nothing inside of a block that stands on it. Small sides that no
+// path meets look around for lit ones. A side that no light reaches takes no part in the transport:
+// it is the inside of a solid or the far face of a wall, and would only leak.
 //
 // Monte Carlo with fixed seeds: a side that is seen through less than about 1 % of its hemisphere
 // may be missed.

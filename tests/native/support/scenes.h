@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes that tests build from a few calls.
+// Rooms that several tests use. Metres; walls have albedo .7.
 #pragma once
-
-#include <string>
 
 #include "scene/scene.h"
 
 namespace antiradiance::test {
 
-// Appends a material and returns its number.
-int add_material(Scene& scene, const vec3& albedo, const vec3& emission = vec3(0));
+// 6 x 4 x 2.7 with two desks, a cupboard through whose back the wall runs and a luminous panel
+// below the ceiling. The desks' blocks stand on the floor, whose patches below them are buried:
+// without care the antiradiance of such patches grows without bound (algorithm.md "It can
+// diverge").
+Scene office();
 
-// A quad a, b, c, d, counter-clockwise seen from its front.
-void add_quad(Scene& scene, const vec3& a, const vec3& b, const vec3& c, const vec3& d,
-              int material, const std::string& name = "Quad");
-void add_triangle(Scene& scene, const vec3& a, const vec3& b, const vec3& c, int material,
-                  const std::string& name = "Triangle");
+// 8 x 5 x 2.7: a corridor with four rooms behind open doors, two of them with a luminous panel. The
+// partitions meet walls, floor and ceiling without cutting them.
+Scene corridor();
 
-// The six faces of an axis-aligned box. inward: a room, else a solid.
-void add_box(Scene& scene, const vec3& low, const vec3& high, int material, bool inward,
-             const std::string& name = "Box");
+// A room with `count`^3 boxes afloat, for links between clusters; a luminous panel below the
+// ceiling.
+Scene floating_boxes(int count);
 
 }  // namespace antiradiance::test

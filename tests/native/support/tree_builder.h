@@ -7,13 +7,17 @@
 
 namespace antiradiance::test {
 
+// The front of every polygon.
+inline std::vector<Surface> front_surfaces(const Scene& scene) {
+    std::vector<Surface> surfaces;
+    for (const Polygon& polygon : make_polygons(scene))
+        surfaces.push_back(make_surface(scene, polygon, false));
+    return surfaces;
+}
+
 // The front of every polygon, cut until no edge is longer than max_edge (m); nothing is buried.
 inline PatchTree front_tree(const Scene& scene, float max_edge) {
-    std::vector<Surface> surfaces;
-    for (const Polygon& polygon : make_polygons(scene)) {
-        surfaces.push_back(make_surface(scene, polygon, false));
-    }
-    GrowingTree growing(std::move(surfaces));
+    GrowingTree growing(front_surfaces(scene));
     growing.split_to(max_edge);
     std::vector<NodeId> renumbered;
     return growing.finish(scene, renumbered);
@@ -25,6 +29,16 @@ inline std::vector<NodeId> leaves_of(const PatchTree& tree, std::int32_t object)
     for (const NodeId leaf : tree.leaves) {
         const auto surface = static_cast<std::size_t>(tree.surface[static_cast<std::size_t>(leaf)]);
         if (tree.surfaces[surface].object == object) leaves.push_back(leaf);
+    }
+    return leaves;
+}
+
+// The leaves on the front of their triangles.
+inline std::vector<NodeId> front_leaves(const PatchTree& tree) {
+    std::vector<NodeId> leaves;
+    for (const NodeId leaf : tree.leaves) {
+        const auto surface = static_cast<std::size_t>(tree.surface[static_cast<std::size_t>(leaf)]);
+        if (!tree.surfaces[surface].back_side) leaves.push_back(leaf);
     }
     return leaves;
 }

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "links/visibility.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "support/linked_scene.h"
+#include "support/scene_builder.h"
+
+namespace antiradiance {
+namespace {
+
+using test::LinkedScene;
+
+const vec3 kX(1, 0, 0);
+const vec3 kY(0, 1, 0);
+
+// A floor and a ceiling of 1 m2 at height 1, and a screen half way up over x < `screen`, whose
+// faces take no part (their links are not looked at).
+Scene screened(float screen) {
+    Scene scene;
+    const int m = test::add_material(scene, vec3(0.5F));
+    test::add_quad(scene, "Floor", vec3(0), kX, kY, m);
+    test::add_quad(scene, "Ceiling", vec3(0, 0, 1), kY, kX, m);
+    if (screen > 0)
+        test::add_quad(scene, "Screen", vec3(-1, -1, 0.5F), (1 + screen) * kX, 3.0F * kY, m);
+    return scene;
+}
+
+// Sum over links from the ceiling to the floor of receiver area times form factor, m2.
+double floor_light(const Scene& scene, int rays_per_pair, float max_edge) {
+    RefineOptions options;
+    options.antiradiance = false;
+    options.least_edge = max_edge;
+    options.receiver_levels = 0;
+    LinkedScene linked(scene, max_edge, options);
+    const RayScene rays(scene);
+    Progress progress;
+    if (rays_per_pair > 0) {
+        apply_ray_visibility(linked.tree, rays, rays_per_pair, linked.refined.pairs,
+                             linked.refined.links, progress);
+    }
+    const PatchTree& tree = linked.tree;
+    const auto object = [&](NodeId n) {
+        return tree.surfaces[static_cast<std::size_t>(tree.surface[static_cast<std::size_t>(n)])]
+            .object;
+    };
+    double sum = 0;
+    for (const RawLink& l : linked.refined.links) {
+        if (object(l.source) == 1 && object(l.receiver) == 0)
+            sum += tree.area[static_cast<std::size_t>(l.receiver)] * l.form_factor;
+    }
+    return sum;
+}
+
+TEST(RayVisibility, NothingIsLostInTheOpen) {
+    EXPECT_NEAR(floor_light(screened(0), 4, 0.3F), .199824896, .199824896 * 0.002);
+    EXPECT_EQ(floor_light(screened(0), 4, 0.3F), floor_light(screened(0), 0, 0.3F));
+}
+
+TEST(RayVisibility, ABlockedWallReceivesNothing) {
+    EXPECT_EQ(floor_light(screened(2), 1, 0.3F), 0);
+    EXPECT_EQ(floor_light(screened(2), 16, 0.3F), 0);
+}
+
+TEST(RayVisibility, AHalfScreenHidesHalf) {
+    // A segment between the squares crosses the plane of the screen in its middle; by symmetry
+    // about x = 1/2 just as many lie left as right of its edge there.
+    const double open = floor_light(screened(0), 0, 0.3F);
+    for (const int rays : {1, 4, 16}) {
+        // Some 500 pairs whose share of 1/2 is known to 1 / (2 sqrt rays) each.
+        EXPECT_NEAR(floor_light(screened(0.5F), rays, 0.15F) / open, 0.5, 0.02) << rays;
+    }
+}
+
+TEST(RayVisibility, AgreesWithManyRaysBetweenPoints) {
+    // Screen over a third: reference by 2 x 10^5 random segments, weighted by their transfer.
+    const Scene scene = screened(0.3F);
+    const RayScene rays(scene);
+    double free = 0, all = 0;
+    for (std::uint32_t i = 0; i < 200'000; ++i) {
+        const auto random = [&](std::uint32_t k) { return to_unit_float(hash_combine(k, i)); };
+        const vec3 a(random(1), random(2), 0);
+        const vec3 b(random(3), random(4), 1);
+        const vec3 d = b - a;
+        const double transfer = 1 / std::pow(static_cast<double>(glm::dot(d, d)), 2);
+        all += transfer;
+        if (!rays.occluded(a + vec3(0, 0, 1e-4F), b - vec3(0, 0, 1e-4F))) free += transfer;
+    }
+    const double share = floor_light(scene, 8, 0.15F) / floor_light(scene, 0, 0.15F);
+    EXPECT_NEAR(share, free / all, 0.01);
+}
+
+TEST(RayVisibility, DoesNotDependOnTheOrderOfPairs) {
+    const Scene scene = screened(0.5F);
+    const RayScene rays(scene);
+    RefineOptions options;
+    options.antiradiance = false;
+    options.least_edge = 0.2F;
+    LinkedScene forwards(scene, 0.3F, options);
+    LinkedScene backwards = forwards;
+    std::reverse(backwards.refined.pairs.begin(), backwards.refined.pairs.end());
+    Progress progress;
+    for (LinkedScene* l : {&forwards, &backwards})
+        apply_ray_visibility(l->tree, rays, 4, l->refined.pairs, l->refined.links, progress);
+    for (std::size_t i = 0; i < forwards.refined.links.size(); ++i)
+        ASSERT_EQ(forwards.refined.links[i].form_factor, backwards.refined.links[i].form_factor);
+}
+
+TEST(SurfaceSampler, CoversAClusterByArea) {
+    const LinkedScene linked(screened(0.5F), 0.3F, {.least_edge = 0.3F});
+    const SurfaceSampler sampler(linked.tree);
+    int floor = 0;
+    constexpr int kSamples = 10'000;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const auto s = sampler.sample(0, r2_sample(i, 3));
+        if (s.point.z < 0.01F) ++floor;
+        ASSERT_NEAR(glm::length(s.normal), 1, 1e-5F);
+    }
+    // 1 of 1 + 1 + 4.5 m2
+    EXPECT_NEAR(static_cast<double>(floor) / kSamples, 1 / 6.5, 0.01);
+}
+
+TEST(SurfaceSampler, StaysOnTheExposedPart) {
+    LinkedScene linked(screened(0), 9, {.least_edge = 9});
+    PatchTree& tree = linked.tree;
+    ASSERT_EQ(tree.leaves.size(), 2U);
+    const auto floor = static_cast<std::size_t>(
+        tree.center[static_cast<std::size_t>(tree.leaves[0])].z < 0.5F ? tree.leaves[0]
+                                                                       : tree.leaves[1]);
+    tree.exposed[floor] = 0.25F;
+    tree.exposed_mask[floor] = 0x000F;  // the strata with j = 0
+    const SurfaceSampler sampler(tree);
+    const auto corners = tree.patch_corners(static_cast<NodeId>(floor));
+    const vec3 v = corners[3] - corners[0];  // j runs along it
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const auto s = sampler.sample(static_cast<NodeId>(floor), r2_sample(i, 3));
+        const float along = glm::dot(s.point - corners[0], v) / glm::dot(v, v);
+        ASSERT_GE(along, -1e-6F);
+        ASSERT_LE(along, 0.25F + 1e-6F);
+    }
+}
+
+}  // namespace
+}  // namespace antiradiance
