@@ -118,7 +118,6 @@ RefineOptions refine_options(const Options& options, float patch_size, std::size
     refine.most_links = static_cast<std::size_t>(std::min(
         kMemoryShare * static_cast<double>(available_memory_bytes()) / kBytesPerLink,
         static_cast<double>(std::numeric_limits<std::uint32_t>::max())));  // links are numbered so
->>>>>>> w-halls
     return refine;
 }
 
