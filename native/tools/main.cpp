@@ -12,17 +12,24 @@ constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kCancelled = 130;  // what a shell says of a process that Ctrl-C ended
 
-}  // namespace
-
-int main(int argc, char** argv) {
+// Parsing runs the command.
+int run(int argc, char** argv) {
     CLI::App app{"Radiosity with antiradiance, without Blender", "antiradiance"};
     app.require_subcommand(1);
     antiradiance::add_render_command(app);
     try {
         app.parse(argc, argv);
-        return 0;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : kWrongUsage;  // asking for help is no error
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
     } catch (const antiradiance::Cancelled&) {
         std::fputs("cancelled\n", stderr);
         return kCancelled;

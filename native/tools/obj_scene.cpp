@@ -292,8 +292,8 @@ Scene read_obj(const std::string& path, float scale) {
     for (const std::string& name : file.materials.list()) {
         slot_materials.push_back(materials.find(name));
         if (slot_materials.back() == kNone && complete) {
-            scene.problems.push_back("'" + path + "': the material '" + name +
-                                     "' is in none of the material files (mtllib) that it names");
+            scene.problems.push_back("The material '" + name + "' is in none of the material " +
+                                     "files (mtllib) that '" + path + "' names");
         }
     }
     if (std::any_of(file.faces.begin(), file.faces.end(),

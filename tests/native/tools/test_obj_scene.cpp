@@ -231,7 +231,7 @@ TEST_F(ObjScene, lists_all_problems_at_once) {
     for (const char* part :
          {"line 10: 'v' needs 3 finite numbers, but has '0 nan 0'", "line 11: 'v'", "line 12: 'v'",
           "line 13: 'v'", "m.mtl', line 2: 'Kd' needs 3 finite numbers",
-          "the material 'glass' is in none of the material files", "Material 'wood'", "gone.png",
+          "The material 'glass' is in none of the material files", "Material 'wood'", "gone.png",
           "Object 'Table': 2 faces have corners that name vertices",
           "Object 'Chair': 2 faces have corners"})
         EXPECT_TRUE(contains(problems, part)) << part << "\nis not in\n" << problems;
