@@ -20,7 +20,7 @@ def room(name, low, high, floor, wall, ceiling, holes=None, wall_materials=None)
 
     low, high: inner corners.  holes: {surface: [(low, high)...]} with the two coordinates that
     vary over the surface, in their order.  wall_materials: {"west": material} for walls that
-    differ from `wall`.
+    differ from `wall`.  floor: None where the scene lays one of its own.
     """
     holes = holes or {}
     unknown = set(holes) - set(SURFACES)
@@ -29,7 +29,8 @@ def room(name, low, high, floor, wall, ceiling, holes=None, wall_materials=None)
     wall_materials = wall_materials or {}
     (x0, y0, z0), (x1, y1, z1) = low, high
     plan = ((x0, y0), (x1, y1))
-    kit.Shape().sheet(2, z0, *plan, floor, +1, holes.get("floor", ())).object(f"{name} floor")
+    if floor:
+        kit.Shape().sheet(2, z0, *plan, floor, +1, holes.get("floor", ())).object(f"{name} floor")
     kit.Shape().sheet(2, z1, *plan, ceiling, -1, holes.get("ceiling", ())).object(
         f"{name} ceiling"
     )
@@ -107,12 +108,9 @@ def door_leaf(width, height, leaf, metal):
     thickness = 0.04
     shape = kit.Shape()
     shape.box((0.0, -thickness / 2, 0.01), (width, thickness / 2, height), leaf)
-    for side in (-1.0, 1.0):
-        y = side * thickness / 2
-        near, far = sorted((y, y + side * 0.05))
-        shape.box((width - 0.08, near, 1.04), (width - 0.06, far, 1.06), metal)
-        near, far = sorted((y + side * 0.035, y + side * 0.05))
-        shape.box((width - 0.2, near, 1.04), (width - 0.06, far, 1.06), metal)
+    for side, behind in ((-1.0, "north"), (1.0, "south")):
+        near, far = sorted((side * thickness / 2, side * (thickness / 2 + 0.045)))
+        shape.box((width - 0.2, near, 1.03), (width - 0.06, far, 1.05), metal, skip=[behind])
     return shape.mesh("Door leaf")
 
 
@@ -161,26 +159,4 @@ def ceiling_light(name, low, high, z, glow, frame, rim=0.03, depth=0.04):
         (*inner[0], z), (*inner[1], z + depth), frame, skip=["bottom", "top"], inward=True
     )
     shape.sheet(2, z + depth, *inner, glow, -1)
-    return shape.object(name)
-
-
-def skirting(name, low, high, gaps, material, height=0.08, depth=0.012):
-    """Boards along a room's walls; gaps: {"west": [(u0, u1)...]} where doors interrupt them."""
-    (x0, y0), (x1, y1) = low, high
-    shape = kit.Shape()
-    walls = {
-        "west": (0, x0, x0 + depth, y0, y1),
-        "east": (0, x1 - depth, x1, y0, y1),
-        "south": (1, y0, y0 + depth, x0, x1),
-        "north": (1, y1 - depth, y1, x0, x1),
-    }
-    behind = {"west": "west", "east": "east", "south": "south", "north": "north"}
-    for side, (axis, p0, p1, u0, u1) in walls.items():
-        start = u0
-        for gap in [*sorted(gaps.get(side, ())), (u1, u1)]:
-            if gap[0] > start:
-                low3 = (p0, start, 0.0) if axis == 0 else (start, p0, 0.0)
-                high3 = (p1, gap[0], height) if axis == 0 else (gap[0], p1, height)
-                shape.box(low3, high3, material, skip=["bottom", behind[side]])
-            start = gap[1]
     return shape.object(name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A corridor with ten rooms, five a side, their doors open; light in the corridor and in six rooms."""
+"""A corridor with ten rooms, five a side, their doors open; light in the corridor and six rooms."""
 
 import math
 import random
@@ -76,7 +76,7 @@ def _corridor(palette, doors):
     kit.place(art, "Picture 2", (LENGTH, 0.0, 1.6), math.radians(-90.0))
     extinguisher = kit.Shape()
     extinguisher.lathe(
-        (0.0, 0.0), [(0.07, 0.0), (0.075, 0.4), (0.03, 0.47), (0.0, 0.5)], palette["Brick red"], 12
+        (0.0, 0.0), [(0.0, 0.0), (0.07, 0.0), (0.07, 0.4), (0.0, 0.5)], palette["Brick red"], 8
     )
     extinguisher.object("Fire extinguisher", (2.75, -0.9, 0.75))
 
@@ -85,12 +85,12 @@ def _pieces(palette, rng):
     """The meshes that the rooms share."""
     return {
         "desk": furniture.desk(palette),
-        "chair": furniture.office_chair(palette, "Chair blue"),
+        "chair": furniture.stacking_chair(palette, "Chair blue"),
         "shelf": furniture.bookshelf(palette, rng, boards=5),
-        "table": furniture.table(palette, 1.5, 0.9, 0.74, "Oak"),
-        "wooden chair": furniture.wooden_chair(palette, "Beech"),
+        "table": furniture.table(palette, 1.4, 0.8, 0.74, "Oak"),
+        "red chair": furniture.stacking_chair(palette, "Chair red"),
         "cupboard": furniture.cupboard(palette, 1.2, 0.8),
-        "plant": furniture.plant(palette, rng, leaves=20),
+        "plant": furniture.plant(palette, rng),
     }
 
 
@@ -119,14 +119,14 @@ def _room(side, i, door, palette, leaf, pieces):
     if i % 2 == 0:
         put("desk", centre[0] + 0.2, 1.1)
         put("chair", centre[0] + 0.2, 1.9, 0.3)
-        put_solid("shelf", x0 + 0.8, 0.17, 0.9, 0.3)
+        if i == 0 and north:
+            put_solid("shelf", x0 + 0.8, 0.15, 0.9, 0.3)
     else:
         put("table", centre[0], 1.5, 0.15)
-        put("wooden chair", centre[0] + 0.2, 2.35, 0.1)
-        put("wooden chair", centre[0] - 0.2, 0.7, math.pi)
-        put_solid("cupboard", x1 - 0.8, 0.25, 1.2, 0.42)
-    if i % 3 == 0:
-        put("plant", x1 - 0.4, 0.45 if i % 2 == 0 else 0.9)
+        put("red chair", centre[0] + 0.2, 2.35, 0.1)
+        put_solid("cupboard", x1 - 0.8, 0.21, 1.2, 0.42)
+    if lit and i == 0:
+        put("plant", x1 - 0.5, 0.5)
 
     architecture.room(
         name, (x0, y0, 0.0), (x1, y1, HEIGHT),

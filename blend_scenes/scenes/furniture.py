@@ -15,7 +15,7 @@ DESK_HEIGHT = 0.74
 
 
 def desk(palette, width=1.6, depth=0.8, top="Beech"):
-    """A table top on two C-shaped frames, with a modesty panel and a cable tray behind."""
+    """A table top on two L-shaped legs, with a modesty panel behind."""
     metal, wood = palette["Steel"], palette[top]
     shape = kit.Shape()
     w, d, h = width / 2, depth / 2, DESK_HEIGHT
@@ -23,72 +23,47 @@ def desk(palette, width=1.6, depth=0.8, top="Beech"):
     for side in (-1, 1):
         x0, x1 = sorted((side * (w - 0.06), side * (w - 0.12)))
         shape.box((x0, -d + 0.05, 0.0), (x1, d - 0.05, 0.045), metal, skip=["bottom"])
-        shape.box((x0, d - 0.25, 0.045), (x1, d - 0.17, h - 0.07), metal, skip=["bottom", "top"])
-        shape.box((x0, -d + 0.12, h - 0.07), (x1, d - 0.08, h - 0.028), metal, skip=["top"])
+        shape.box((x0, d - 0.25, 0.045), (x1, d - 0.17, h - 0.028), metal, skip=["bottom", "top"])
     shape.box((-w + 0.12, d - 0.11, 0.32), (w - 0.12, d - 0.092, h - 0.028), wood, skip=["top"])
-    shape.box((-w + 0.3, d - 0.32, h - 0.14), (w - 0.3, d - 0.2, h - 0.1), metal)
     return shape.mesh("Desk")
 
 
 def pedestal(palette):
-    """A block of three drawers on castors, to stand under a desk."""
+    """A block of three drawers on a recessed plinth, to stand under a desk."""
     body, front, metal = palette["Light plastic"], palette["Lacquer white"], palette["Dark steel"]
     shape = kit.Shape()
     w, d, z0, z1 = 0.21, 0.27, 0.06, 0.58
-    shape.box((-w, -d, z0), (w, d, z1), body)
-    for x in (-w + 0.04, w - 0.04):
-        for y in (-d + 0.05, d - 0.05):
-            shape.box((x - 0.02, y - 0.02, 0.0), (x + 0.02, y + 0.02, z0), metal, skip=["top"])
+    shape.box((-w, -d, z0), (w, d, z1), body, skip=["south"])
+    shape.box((-w + 0.03, -d + 0.05, 0.0), (w - 0.03, d - 0.03, z0), metal, skip=["bottom", "top"])
     height = (z1 - z0 - 0.02) / 3
-    for i in range(3):
-        low = z0 + 0.01 + i * height
-        shape.box(
-            (-w + 0.006, -d - 0.016, low + 0.004), (w - 0.006, -d, low + height - 0.004), front,
-            skip=["north"],
-        )  # fmt: skip
-        shape.box(
-            (-0.07, -d - 0.03, low + height - 0.05), (0.07, -d - 0.016, low + height - 0.035),
-            metal, skip=["north"],
-        )  # fmt: skip
+    lows = [z0 + 0.018 + i * height for i in range(3)]
+    drawers = [((-w, low), (w, low + height - 0.016)) for low in lows]
+    shape.sheet(1, -d, (-w, z0), (w, z1), body, -1, holes=drawers)
+    for (x0, low), (x1, high) in drawers:
+        shape.box((x0, -d - 0.016, low), (x1, -d, high), front, skip=["north"])
     return shape.mesh("Drawer pedestal")
 
 
 def office_chair(palette, fabric):
-    """A swivel chair: five-star base on castors, gas lift, padded seat, curved back, armrests."""
+    """A swivel chair: five-star base, gas lift, padded seat, leaning back."""
     cloth, black, metal = palette[fabric], palette["Black plastic"], palette["Dark steel"]
     shape = kit.Shape()
     for i in range(5):
         spoke = kit.Shape()
-        spoke.box((0.03, -0.022, 0.07), (0.3, 0.022, 0.1), metal, skip=["west"])
-        spoke.cylinder((0.28, 0.0), 0.028, 0.0, 0.07, black, segments=6, top=False)
+        spoke.box((0.04, -0.022, 0.03), (0.3, 0.022, 0.08), metal, skip=["west"])
         shape.add(spoke.transformed(Matrix.Rotation(2.0 * math.pi * i / 5.0 + 0.2, 4, "Z")))
-    shape.cylinder((0.0, 0.0), 0.045, 0.06, 0.13, metal)
-    shape.cylinder((0.0, 0.0), 0.025, 0.13, 0.41, metal, bottom=False, top=False)
-    shape.box((-0.12, -0.12, 0.41), (0.12, 0.12, 0.435), black)
-    shape.add(_cushion((0.5, 0.48, 0.075), 0.06, cloth).transformed(Matrix.Translation((0, 0, 0.435))))
-    # The back: three upright strips that follow a shallow arc, on a bent bar.
-    for x0, x1, ya, yb in ((-0.22, -0.08, 0.17, 0.22), (-0.08, 0.08, 0.22, 0.22), (0.08, 0.22, 0.22, 0.17)):
-        _slanted_strip(shape, x0, x1, ya, yb, 0.58, 1.02, 0.05, cloth)
-    shape.box((-0.03, 0.1, 0.4), (0.03, 0.29, 0.435), black, skip=["south"])
-    shape.box((-0.03, 0.27, 0.435), (0.03, 0.3, 0.85), black, skip=["bottom"])
-    for side in (-1, 1):
-        x0, x1 = sorted((side * 0.25, side * 0.285))
-        shape.box((x0, -0.02, 0.45), (x1, 0.06, 0.66), black, skip=["top"])
-        x0, x1 = sorted((side * 0.235, side * 0.3))
-        shape.box((x0, -0.15, 0.66), (x1, 0.13, 0.685), black)
+    shape.cylinder((0.0, 0.0), 0.03, 0.03, 0.435, metal, segments=6, bottom=False, top=False)
+    seat = _cushion((0.5, 0.48, 0.075), 0.06, cloth)
+    shape.add(seat.transformed(Matrix.Translation((0.0, 0.0, 0.435))))
+    shape.box((-0.03, 0.2, 0.405), (0.03, 0.29, 0.43), black)
+    shape.box((-0.03, 0.265, 0.43), (0.03, 0.29, 0.8), black, skip=["bottom"])
+    lean = Matrix.Translation((0.0, 0.2, 0.6)) @ Matrix.Rotation(math.radians(-6.0), 4, "X")
+    shape.add(_cushion((0.44, 0.42, 0.055), 0.06, cloth).transformed(lean @ _UPRIGHT))
     return shape.mesh("Office chair")
 
 
-def _slanted_strip(shape, x0, x1, ya, yb, z0, z1, thickness, material):
-    """An upright slab whose front runs from (x0, ya) to (x1, yb), leaning back by 5 cm."""
-    lean, t = 0.05, thickness
-    front = [(x0, ya, z0), (x1, yb, z0), (x1, yb + lean, z1), (x0, ya + lean, z1)]
-    back = [(x, y + t, z) for x, y, z in front]
-    shape.polygon(front, material)
-    shape.polygon(back[::-1], material)
-    for i in range(4):
-        j = (i + 1) % 4
-        shape.polygon((front[j], front[i], back[i], back[j]), material)
+# Turns what lies on z = 0 so that its top looks towards -Y and its -Y side down.
+_UPRIGHT = Matrix.Translation((0.0, 0.055, 0.21)) @ Matrix.Rotation(math.radians(90.0), 4, "X")
 
 
 def _cushion(size, chamfer, material):
@@ -103,7 +78,7 @@ def _cushion(size, chamfer, material):
             (a - c, b, z), (-a + c, b, z), (-a, b - c, z), (-a, -b + c, z),
         ]  # fmt: skip
 
-    loops = [loop(slope / 2, 0.0), loop(0.0, slope / 2), loop(0.0, h - slope), loop(slope, h)]
+    loops = [loop(slope / 2, 0.0), loop(0.0, h - slope), loop(slope, h)]
     shape = kit.Shape()
     for lower, upper in zip(loops, loops[1:]):
         for i in range(8):
@@ -129,22 +104,28 @@ def monitor(palette, screen):
 
 
 def keyboard(palette):
-    """A keyboard with its keys in blocks, as one sees them from a step away."""
+    """A keyboard with its keys in two blocks, as one sees them from a step away."""
     body, key = palette["Grey plastic"], palette["Light plastic"]
     shape = kit.Shape()
     w, d, top = 0.22, 0.07, 0.014
-    shape.box((-w, -d, 0.0), (w, d, top), body, skip=["bottom"])
-    blocks = ((-0.21, -0.135), (-0.13, -0.04), (-0.035, 0.06), (0.065, 0.13), (0.14, 0.21))
-    for row in range(5):
-        y = -d + 0.012 + row * 0.024
-        for x0, x1 in blocks:
-            shape.box((x0, y, top), (x1, y + 0.02, top + 0.008), key, skip=["bottom"])
+    shape.box((-w, -d, 0.0), (w, d, top), body, skip=["bottom", "top"])
+    blocks = ((-0.21, 0.06), (0.08, 0.21))
+    keys = [((x0, -d + 0.01), (x1, d - 0.01)) for x0, x1 in blocks]
+    shape.sheet(2, top, (-w, -d), (w, d), body, +1, holes=keys)
+    for low, high in keys:
+        shape.box((*low, top), (*high, top + 0.008), key, skip=["bottom"])
     return shape.mesh("Keyboard")
 
 
 def mouse(palette):
-    shape = kit.Shape()
-    shape.add(_cushion((0.062, 0.105, 0.034), 0.02, palette["Black plastic"]))
+    """Higher at the palm than at the buttons."""
+    shape, black = kit.Shape(), palette["Black plastic"]
+    w, d, low, high = 0.03, 0.052, 0.014, 0.034
+    side = [(-d, 0.0), (d, 0.0), (0.7 * d, high), (-d, low)]  # (y, z), counter-clockwise from +X
+    for (ya, za), (yb, zb) in zip(side[1:], [*side[2:], side[0]]):
+        shape.polygon(((w, ya, za), (w, yb, zb), (-w, yb, zb), (-w, ya, za)), black)
+    shape.polygon([(w, y, z) for y, z in side], black)
+    shape.polygon([(-w, y, z) for y, z in side[::-1]], black)
     return shape.mesh("Mouse")
 
 
@@ -152,28 +133,23 @@ def mug(palette, colour):
     """A mug with an inside and a handle."""
     shape = kit.Shape()
     glaze = palette[colour]
-    profile = [(0.036, 0.0), (0.04, 0.09), (0.036, 0.09), (0.033, 0.008), (0.0, 0.008)]
-    shape.lathe((0.0, 0.0), profile, glaze, segments=10)
-    for z0, z1 in ((0.02, 0.03), (0.065, 0.075)):
-        shape.box((0.036, -0.006, z0), (0.066, 0.006, z1), glaze, skip=["west"])
-    shape.box((0.056, -0.006, 0.03), (0.066, 0.006, 0.065), glaze, skip=["bottom", "top"])
+    profile = [(0.036, 0.0), (0.04, 0.09), (0.035, 0.09), (0.033, 0.008), (0.0, 0.008)]
+    shape.lathe((0.0, 0.0), profile, glaze, segments=6)
+    shape.box((0.04, -0.006, 0.03), (0.065, 0.006, 0.075), glaze, skip=["west"])
     return shape.mesh("Mug")
 
 
-def desk_lamp(palette, shade, glow):
-    """A lamp with a weighted foot, a jointed arm and a cone of a shade with a glowing disk in it."""
+def desk_lamp(palette, shade):
+    """A lamp, switched off, with a weighted foot, a jointed arm and a cone for a shade."""
     metal = palette["Dark steel"]
     shape = kit.Shape()
-    shape.cylinder((0.0, 0.0), 0.08, 0.0, 0.02, metal, segments=10, bottom=False)
+    shape.cylinder((0.0, 0.0), 0.08, 0.0, 0.02, metal, segments=8, bottom=False)
     shape.add(_bar((0.0, 0.0, 0.02), (0.0, 0.14, 0.3), 0.008, metal))
     shape.add(_bar((0.0, 0.14, 0.3), (0.0, -0.08, 0.46), 0.008, metal))
     cone = kit.Shape()
-    outer = [(0.085, -0.1), (0.035, 0.02), (0.0, 0.02)]
-    inner = [(0.03, 0.012), (0.08, -0.1), (0.085, -0.1)]
-    cone.lathe((0.0, 0.0), outer, palette[shade], segments=12)
-    cone.lathe((0.0, 0.0), inner, palette["White paint"], segments=12)
-    cone.lathe((0.0, 0.0), [(0.0, -0.05), (0.03, -0.05), (0.03, -0.03), (0.0, -0.03)], glow, 8)
-    tilt = Matrix.Translation((0.0, -0.08, 0.45)) @ Matrix.Rotation(math.radians(-18.0), 4, "X")
+    cone.lathe((0.0, 0.0), [(0.085, -0.1), (0.03, 0.0), (0.0, 0.0)], palette[shade], segments=8)
+    cone.lathe((0.0, 0.0), [(0.0, -0.008), (0.085, -0.1)], palette["White paint"], segments=8)
+    tilt = Matrix.Translation((0.0, -0.09, 0.45)) @ Matrix.Rotation(math.radians(-18.0), 4, "X")
     shape.add(cone.transformed(tilt))
     return shape.mesh("Desk lamp")
 
@@ -196,7 +172,7 @@ def book_row(rng, x0, x1, limit, y0, y1, z, tallest, colours):
     shape = kit.Shape()
     books, x = [], x0
     while True:
-        width = rng.uniform(0.018, 0.05)
+        width = rng.uniform(0.04, 0.1)
         if x + width > x1:
             break
         books.append((x, x + width, rng.uniform(0.68, 0.97) * tallest, rng.choice(colours)))
@@ -258,41 +234,45 @@ def binders(palette, rng, count=5):
     shape = kit.Shape()
     for i in range(count):
         cover = palette[rng.choice(("Book grey", "Book blue", "Book red", "Black plastic"))]
-        x = i * 0.078
-        shape.box((x, -0.14, 0.0), (x + 0.075, 0.14, 0.32), cover, skip=["bottom"])
+        x = i * 0.075
+        between = (["west"] if i else []) + (["east"] if i + 1 < count else [])
+        shape.box(
+            (x, -0.14, 0.0), (x + 0.075, 0.14, 0.32), cover, skip=["bottom", "south", *between]
+        )
         label = ((x + 0.018, 0.16), (x + 0.058, 0.27))
-        shape.sheet(1, -0.1405, *label, palette["Paper"], -1)
+        shape.sheet(1, -0.14, (x, 0.0), (x + 0.075, 0.32), cover, -1, holes=[label])
+        shape.sheet(1, -0.14, *label, palette["Paper"], -1)
     return shape.mesh("Binders")
 
 
-def papers(palette, rng, sheets=4):
-    """Sheets of A4 lying askew on each other."""
+def papers(palette, rng):
+    """Two low stacks of A4 side by side, not quite straight."""
     shape = kit.Shape()
-    for i in range(sheets):
-        turn = Matrix.Rotation(rng.uniform(-0.25, 0.25), 4, "Z")
-        shift = Matrix.Translation((rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02), i * 0.003))
-        sheet = kit.Shape().box(
-            (-0.105, -0.148, 0.0), (0.105, 0.148, 0.003), palette["Paper"], skip=["bottom"]
+    for x, height in ((-0.12, 0.012), (0.12, 0.004)):
+        turn = Matrix.Rotation(rng.uniform(-0.1, 0.1), 4, "Z")
+        stack = kit.Shape().box(
+            (-0.105, -0.148, 0.0), (0.105, 0.148, height), palette["Paper"], skip=["bottom"]
         )
-        shape.add(sheet.transformed(shift @ turn))
+        shape.add(stack.transformed(Matrix.Translation((x, 0.0, 0.0)) @ turn))
     return shape.mesh("Papers")
 
 
-def plant(palette, rng, height=1.3, leaves=36):
+def plant(palette, rng, height=1.3, leaves=11):
     """A pot with soil and long leaves that bend outwards."""
     clay, green = palette["Terracotta"], palette["Leaf"]
     shape = kit.Shape()
     profile = [(0.13, 0.0), (0.18, 0.3), (0.165, 0.3), (0.16, 0.26)]
-    shape.lathe((0.0, 0.0), profile, clay, segments=12)
-    shape.lathe((0.0, 0.0), [(0.16, 0.26), (0.0, 0.27)], palette["Soil"], segments=12)
+    shape.lathe((0.0, 0.0), profile, clay, segments=8)
+    angles = [2.0 * math.pi * i / 8 for i in range(8)]
+    shape.polygon([(0.16 * math.cos(a), 0.16 * math.sin(a), 0.26) for a in angles], palette["Soil"])
     for i in range(leaves):
         angle = 2.4 * i + rng.uniform(-0.3, 0.3)
-        reach = rng.uniform(0.15, 0.5)
-        top = 0.3 + (height - 0.3) * rng.uniform(0.45, 1.0)
-        droop = top - reach * rng.uniform(0.2, 0.6)
-        half = rng.uniform(0.025, 0.045)
-        path = [(0.03, 0.27), (0.3 * reach + 0.03, 0.6 * top + 0.1), (0.75 * reach, top), (reach, droop)]
-        widths = (0.006, half, half, 0.004)
+        reach = rng.uniform(0.22, 0.45)
+        top = 0.3 + (height - 0.3) * (0.4 + 0.6 * (i + 0.5) / leaves)
+        droop = top - reach * rng.uniform(0.2, 0.5)
+        half = rng.uniform(0.045, 0.07)
+        path = [(0.07, 0.27), (0.05 + 0.55 * reach, top), (reach, droop)]
+        widths = (0.006, half, 0.006)
         leaf = kit.Shape()
         for (r0, z0), (r1, z1), a, b in zip(path, path[1:], widths, widths[1:]):
             leaf.polygon(((r0, -a, z0), (r1, -b, z1), (r1, b, z1), (r0, a, z0)), green)
@@ -302,19 +282,20 @@ def plant(palette, rng, height=1.3, leaves=36):
 
 def waste_bin(palette):
     profile = [(0.11, 0.0), (0.14, 0.3), (0.135, 0.3), (0.105, 0.01), (0.0, 0.01)]
-    return kit.Shape().lathe((0.0, 0.0), profile, palette["Dark steel"], segments=14).mesh("Bin")
+    return kit.Shape().lathe((0.0, 0.0), profile, palette["Dark steel"], segments=8).mesh("Bin")
 
 
 def radiator(palette, width=1.4):
-    """Fins between two rails; hangs 12 cm above the floor, its back at y = 0."""
+    """A panel with ribs; hangs 12 cm above the floor and 3 cm from the wall, which is at y = 0."""
     white = palette["Lacquer white"]
     shape = kit.Shape()
-    count = int(width / 0.075)
-    shape.box((-width / 2, -0.085, 0.16), (width / 2, -0.045, 0.2), white)
-    shape.box((-width / 2, -0.085, 0.6), (width / 2, -0.045, 0.64), white)
-    for i in range(count):
-        x = -width / 2 + 0.02 + i * (width - 0.075) / (count - 1)
-        shape.box((x, -0.1, 0.12), (x + 0.035, -0.03, 0.68), white)
+    z0, z1, front, count = 0.12, 0.68, -0.07, int(width / 0.25)
+    shape.box((-width / 2, front, z0), (width / 2, -0.03, z1), white, skip=["south"])
+    middles = [width * ((i + 0.5) / count - 0.5) for i in range(count)]
+    ribs = [((x - 0.06, z0), (x + 0.06, z1)) for x in middles]
+    shape.sheet(1, front, (-width / 2, z0), (width / 2, z1), white, -1, holes=ribs)
+    for (x0, _), (x1, _) in ribs:
+        shape.box((x0, front - 0.025, z0), (x1, front, z1), white, skip=["north"])
     return shape.mesh("Radiator")
 
 
@@ -341,8 +322,8 @@ def wall_clock(palette):
     """A round clock whose back is at y = 0; ten past ten."""
     shape = kit.Shape()
     face, rim, hand = palette["Paper"], palette["Black plastic"], palette["Black plastic"]
-    shape.lathe((0.0, 0.0), [(0.16, 0.0), (0.16, 0.04), (0.145, 0.04), (0.145, 0.025)], rim, 20)
-    shape.lathe((0.0, 0.0), [(0.145, 0.025), (0.0, 0.025)], face, 20)
+    shape.lathe((0.0, 0.0), [(0.16, 0.0), (0.16, 0.03), (0.145, 0.025)], rim, 10)
+    shape.lathe((0.0, 0.0), [(0.145, 0.025), (0.0, 0.025)], face, 10)
     for angle, length, width in ((-60.0, 0.08, 0.008), (60.0, 0.115, 0.006)):
         bar = kit.Shape().box((-width, 0.0, 0.028), (width, length, 0.032), hand)
         shape.add(bar.transformed(Matrix.Rotation(math.radians(-angle), 4, "Z")))
@@ -393,17 +374,31 @@ def wooden_chair(palette, wood):
     return shape.mesh("Wooden chair")
 
 
+def stacking_chair(palette, fabric):
+    """Seat and back between two frames of steel tube; few polygons, for rooms full of them."""
+    cloth, metal = palette[fabric], palette["Dark steel"]
+    shape = kit.Shape()
+    w, tube, seat = 0.21, 0.024, 0.46
+    for x in (-w - tube, w):
+        shape.box((x, -0.2, 0.0), (x + tube, -0.2 + tube, seat), metal, skip=["bottom"])
+        shape.box((x, 0.2, 0.0), (x + tube, 0.2 + tube, 0.84), metal, skip=["bottom"])
+    shape.box((-w, -0.22, seat - 0.035), (w, 0.2, seat), cloth)
+    shape.box((-w, 0.195, 0.56), (w, 0.225, 0.82), cloth)
+    return shape.mesh("Stacking chair")
+
+
 def cupboard(palette, width=0.9, height=0.8, depth=0.42, body="Lacquer white", front="Oak"):
     """A low cupboard with two doors; it fills its footprint, so cut the floor under it."""
     shape = kit.Shape()
     w, d = width / 2, depth / 2
-    shape.box((-w, -d, 0.0), (w, d, height), palette[body], skip=["bottom"])
-    for x0, x1, knob in ((-w + 0.01, -0.003, -0.05), (0.003, w - 0.01, 0.05)):
+    shape.box((-w, -d, 0.0), (w, d, height), palette[body], skip=["bottom", "south"])
+    doors = [((x0, 0.06), (x1, height - 0.02)) for x0, x1 in ((-w, -0.004), (0.004, w))]
+    shape.sheet(1, -d, (-w, 0.0), (w, height), palette[body], -1, holes=doors)
+    for ((x0, z0), (x1, z1)), knob in zip(doors, (-0.05, 0.05)):
+        shape.box((x0, -d - 0.016, z0), (x1, -d, z1), palette[front], skip=["north"])
+        z = height * 0.55
         shape.box(
-            (x0, -d - 0.016, 0.06), (x1, -d, height - 0.02), palette[front], skip=["north"]
-        )
-        shape.box(
-            (knob - 0.01, -d - 0.035, height * 0.55), (knob + 0.01, -d - 0.016, height * 0.55 + 0.1),
+            (knob - 0.01, -d - 0.035, z), (knob + 0.01, -d - 0.016, z + 0.1),
             palette["Dark steel"], skip=["north"],
         )  # fmt: skip
     return shape.mesh("Cupboard")
@@ -412,14 +407,3 @@ def cupboard(palette, width=0.9, height=0.8, depth=0.42, body="Lacquer white", f
 def cushion(material, size=(0.55, 0.55, 0.09), name="Cushion"):
     """A floor cushion."""
     return _cushion(size, 0.07, material).mesh(name)
-
-
-def coat_stand(palette):
-    wood = palette["Walnut"]
-    shape = kit.Shape()
-    shape.cylinder((0.0, 0.0), 0.2, 0.0, 0.025, wood, segments=12, bottom=False)
-    shape.cylinder((0.0, 0.0), 0.02, 0.025, 1.75, wood, bottom=False)
-    for i in range(4):
-        turn = Matrix.Rotation(math.pi / 2 * i + 0.4, 4, "Z")
-        shape.add(_bar((0.015, 0.0, 1.6), (0.14, 0.0, 1.72), 0.01, wood).transformed(turn))
-    return shape.mesh("Coat stand")
