@@ -10,7 +10,8 @@ namespace antiradiance {
 namespace {
 
 constexpr std::size_t kLanes = 4;  // edges at once
-// Five corners, since one plane adds one at most, and as many more as fill two groups of edges.
+// A plane adds one corner to a convex quad; the heights of a needle's corners may alternate in sign
+// by rounding and leave 6. As many more as fill two groups of edges.
 constexpr std::size_t kPadded = 2 * kLanes + 1;
 constexpr float kTiny = 1e-30F;  // in place of a division by 0
 

@@ -41,6 +41,12 @@ Transport::Transport(const PatchTree& tree, const LinkSet& links)
       radiance_(tree.size()),
       phi_(links.segments.size(), vec3(0)),
       bin_clusters_(static_cast<std::size_t>(links.bins.count())) {
+    branches_.reserve(tree.size());
+    for (std::size_t n = 0; n < tree.size(); ++n) {
+        const NodeId parent = tree.parent[n];
+        const bool is_root = parent == kNone || tree.is_cluster(parent);
+        branches_.push_back({is_root ? kNone : parent, tree.subtree_end[n], tree.area[n]});
+    }
     index_links();
 }
 
@@ -160,11 +166,15 @@ void Transport::load_clusters(int bin, Scratch& scratch) const {
 // pulled up; with the clamp that keeps the solve bounded (algorithm.md "It can diverge").
 void Transport::load_antiradiance(NodeId node, Scratch& scratch) const {
     const auto n = static_cast<std::size_t>(node);
-    Float4 below{};
-    for (auto down = n + 1; down < static_cast<std::size_t>(tree_.subtree_end[n]); ++down)
-        below += tree_.area[down] * scratch.passed[down];
-    Float4 a = below / tree_.area[n];
-    for (NodeId up = node; !tree_.is_cluster(up); up = tree_.parent[static_cast<std::size_t>(up)])
+    const Branch& own = branches_[n];
+    Float4 a = scratch.passed[n];
+    if (own.subtree_end > node + 1) {
+        Float4 below{};
+        for (auto down = n + 1; down < static_cast<std::size_t>(own.subtree_end); ++down)
+            below += branches_[down].area * scratch.passed[down];
+        a += below / own.area;
+    }
+    for (NodeId up = own.parent; up != kNone; up = branches_[static_cast<std::size_t>(up)].parent)
         a += scratch.passed[static_cast<std::size_t>(up)];
     scratch.sent[tree_.size() + n] = clamp(a, most_antiradiance_);
 }

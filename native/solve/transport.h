@@ -45,6 +45,12 @@ private:
         NodeId node;
         std::uint32_t first_use;  // segment whose links read it first
     };
+    // A patch's place in the hierarchy, in one piece.
+    struct Branch {
+        NodeId parent;  // kNone: that is a cluster
+        NodeId subtree_end;
+        float area;  // m2
+    };
     struct Scratch;
 
     void index_links();
@@ -59,6 +65,7 @@ private:
     std::vector<Float4> radiance_;            // #nodes, of this pass
     Float4 most_antiradiance_{};              // upper clamp of A: the largest L of each colour
     std::vector<vec3> phi_;                   // #segments, W/m2
+    std::vector<Branch> branches_;            // #nodes
     std::vector<Passing> passing_;            // by bin, then by first use
     std::vector<std::uint32_t> bin_passing_;  // #bins + 1
     // Clusters, only where links end at some:
