@@ -93,6 +93,37 @@ TEST(RayVisibility, AgreesWithManyRaysBetweenPoints) {
     EXPECT_NEAR(share, free / all, 0.01);
 }
 
+TEST(RayVisibility, FourRaysAreNearToManyRays) {
+    const Scene scene = screened(0.3F);
+    const RayScene rays(scene);
+    RefineOptions options;
+    options.antiradiance = false;
+    options.least_edge = 0.15F;
+    const LinkedScene open(scene, 0.15F, options);
+    const auto links_by = [&](int count) {
+        std::vector<RawLink> links = open.refined.links;
+        Progress progress;
+        apply_ray_visibility(open.tree, rays, count, open.refined.pairs, links, progress);
+        return links;
+    };
+    const std::vector<RawLink> few = links_by(4);
+    const std::vector<RawLink> many = links_by(1024);
+    double squares = 0;
+    int partly = 0;
+    for (std::size_t i = 0; i < few.size(); ++i) {
+        const float whole = open.refined.links[i].form_factor;
+        const float v = many[i].form_factor / whole;
+        if (v < 0.02F || v > 0.98F) continue;
+        const float off = few[i].form_factor / whole - v;
+        squares += static_cast<double>(off) * off;
+        ++partly;
+    }
+    ASSERT_GT(partly, 100);
+    const double rms = std::sqrt(squares / partly);
+    // Four independent rays of these links would be .2 off.
+    EXPECT_LT(rms, 0.18);
+}
+
 TEST(RayVisibility, DoesNotDependOnTheOrderOfPairs) {
     const Scene scene = screened(0.5F);
     const RayScene rays(scene);
