@@ -104,7 +104,7 @@ def door_frame(name, opening, material, threshold):
 
 
 def door_leaf(width, height, leaf, metal):
-    """The mesh of a door leaf from the hinge at the origin along +X, with a handle on both sides."""
+    """The mesh of a door leaf from the hinge at the origin along +X, with a handle a side."""
     thickness = 0.04
     shape = kit.Shape()
     shape.box((0.0, -thickness / 2, 0.01), (width, thickness / 2, height), leaf)

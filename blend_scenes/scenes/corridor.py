@@ -50,9 +50,9 @@ def _door(side, i):
 
 
 def _corridor(palette, doors):
-    glow = kit.emissive("Corridor light", (1.0, 0.94, 0.85), 9.0)
+    glow = kit.emissive("Corridor light", (1.0, 0.94, 0.85), 16.0)
     lights = []
-    for x in (3.0, 8.4, 13.8):
+    for x in (2.0, 5.2, 8.4, 11.6, 14.8):
         lights.append(((x - 0.6, -0.15), (x + 0.6, 0.15)))
     architecture.room(
         "Corridor", (0.0, -HALF_WIDTH, 0.0), (LENGTH, HALF_WIDTH, HEIGHT),
@@ -142,7 +142,7 @@ def _room(side, i, door, palette, leaf, pieces):
     if lit:
         lamp = kit.add_lamp(
             f"{name} lamp", "AREA", (*centre, HEIGHT - 0.03), (*centre, 0.0),
-            LAMP_COLOURS[i % len(LAMP_COLOURS)], 60.0,
+            LAMP_COLOURS[i % len(LAMP_COLOURS)], 35.0,
         )  # fmt: skip
         lamp.shape = "RECTANGLE"
         lamp.size, lamp.size_y = 1.2, 0.3

@@ -25,7 +25,7 @@ MATS = (
 )  # fmt: skip
 
 SCREEN_X, SCREEN_HEIGHT = (0.55, 2.35), 1.8  # the two shoji in the north wall
-SHELF_X, SHELF_SIZE = 3.35, (1.2, 0.95, 0.3)  # the bookshelf at the north wall: width, height, depth
+SHELF_X, SHELF_SIZE = 3.35, (1.2, 0.95, 0.3)  # bookshelf at the north wall; width, height, depth
 TABLE = (2.15, 1.75)
 ANDON = (0.42, 3.12)  # the floor lamp
 BATTENS = [(y - 0.015, y + 0.015) for y in (0.45, 0.9, 1.35, 1.8, 2.25, 2.7, 3.15)]
@@ -224,6 +224,8 @@ def _along_the_wall(palette, rng):
     for x in (-half, half - post):
         for y in (-half, half - post):
             andon.box((x, y, 0.0), (x + post, y + post, top), palette["Walnut"], skip=["bottom"])
-    inner = half - post / 2
-    andon.box((-inner, -inner, 0.14), (inner, inner, top - 0.02), palette["Shoji paper"], skip=["top"])
+    inner = half - post
+    andon.box(
+        (-inner, -inner, 0.14), (inner, inner, top - 0.02), palette["Shoji paper"], skip=["top"]
+    )
     andon.object("Andon", (*ANDON, 0.0), 0.25)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Two rooms and a doorway: the only lamp is in the one with the camera, the other is seen beyond."""
+"""Two rooms and a doorway: the only lamp is in the room with the camera, the other lies beyond."""
 
 import math
 

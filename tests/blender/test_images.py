@@ -46,11 +46,15 @@ LIMITS = Floors(0.10, 0.20, 0.20)
 # in ALL_IMPLICIT the edges of shadows, which are as coarse as the patches.
 FLOORS = {
     "cornell_box": Floors(0.030, 0.060, 0.200),  # 2.4, 4.8, 16.0; dark corners go below 0 and clamp
+    "desks": Floors(0.059, 0.075, 0.124),  # 4.7, 5.9, 9.9; all of it a little dark, 3.5 to 5.7 %
     "geometry_zoo": Floors(0.014, 0.021, 0.116),  # 1.1, 1.7, 9.3
+    "japanese_room": Floors(0.064, 0.077, 0.200),  # 5.1, 6.2, 18.1; dark by the corner post
     "lamp_area": Floors(0.022, 0.027, 0.178),  # 1.8, 2.1, 14.2: each bay has one near lamp
     "lamp_point": Floors(0.008, 0.012, 0.012),  # 0.6, 1.0, 1.0: no patch emits, so that the last
     "lamp_spot": Floors(0.010, 0.015, 0.015),  # 0.8, 1.2, 1.2  two modes are the same
     "lamp_sun": Floors(0.010, 0.017, 0.017),  # 0.8, 1.4, 1.4
+    "office": Floors(0.065, 0.068, 0.119),  # 5.2, 5.4, 9.5; a little dark, 3.3 to 5.1 %
+    "two_rooms": Floors(0.040, 0.054, 0.126),  # 3.2, 4.3, 10.1
 }
 
 LAMP_SCENES = [name for name in REFERENCES if name.startswith("lamp_")]
@@ -153,6 +157,54 @@ def patch_of(pixels, x, y, size=4):
     row, column = int(y * pixels.shape[0]), int(x * pixels.shape[1])
     return pixels[row - size // 2:row + size // 2, column - size // 2:column + size // 2].mean(
         axis=(0, 1))
+
+
+# Parts of pictures, (left, top, right, bottom) in shares of the width and height, that are too dark
+# or too small to tell in the figure of the whole, each with what it shows.
+PARTS = {
+    "two_rooms": {
+        "dark room's far wall, lit through the door alone": (0.48, 0.28, 0.6, 0.45),
+        "dark room's floor": (0.48, 0.7, 0.6, 0.8),
+    },
+    "office": {
+        "radiator below the windows, indirect light alone": (0.85, 0.61, 0.98, 0.68),
+    },
+    "japanese_room": {
+        "wall beside the window, indirect light alone": (0.02, 0.3, 0.1, 0.55),
+        "mats far from the window": (0.75, 0.85, 0.95, 0.98),
+    },
+    "desks": {
+        "north wall of the left bay, ochre in warm light": (0.0, 0.25, 0.06, 0.45),
+        "north wall of the middle bay, sage": (0.3, 0.26, 0.5, 0.36),
+        "east wall of the right bay in cool light": (0.88, 0.22, 0.98, 0.4),
+    },
+}
+
+
+# Of the mean of a part. Antiradiance takes a quarter of their light from the dark room's walls.
+PART_LIMITS = Floors(0.10, 0.30, 0.30)
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("scene, part", [(s, p) for s, parts in PARTS.items() for p in parts])
+def test_parts_of_pictures(pictures, scene, part, mode):
+    picture, cycles = read_rgb(pictures(scene)[mode].path), read_rgb(reference(scene))
+    height, width = cycles.shape[:2]
+    left, top, right, bottom = PARTS[scene][part]
+    rows = slice(round(top * height), round(bottom * height))
+    columns = slice(round(left * width), round(right * width))
+    colours = [pixels[rows, columns].mean(axis=(0, 1)) for pixels in (picture, cycles)]
+    ratio = colours[0] / colours[1]
+    assert ratio == approx(1.0, abs=PART_LIMITS.of(mode)), f"{scene}, {part}: {ratio}"
+
+
+FURNISHED = ("office", "desks", "japanese_room")
+
+
+@pytest.mark.parametrize("scene", FURNISHED)
+def test_furnished_scenes_are_detailed(pictures, scene):
+    for mode, picture in pictures(scene).items():
+        assert picture.report["leaves"] >= 12_000, mode
 
 
 @pytest.mark.parametrize("mode", MODES)
