@@ -12,12 +12,12 @@ namespace antiradiance {
 
 namespace {
 
-constexpr int kFewestPaths = 24;        // from a side that emits or sees the sun
-constexpr int kMostPaths = 384;         // from a side
-constexpr int kPathsForAll = 200'000;   // shared out by area
-constexpr int kLampPaths = 16'384;      // per lamp
-constexpr int kFewestLampPaths = 1024;  // where many lamps share: what one misses another finds
-constexpr int kPathsForAllLamps = 500'000;
+constexpr int kFewestPaths = 24;       // from a side that emits or sees the sun
+constexpr int kMostPaths = 384;        // from a side
+constexpr int kPathsForAll = 200'000;  // shared out by area
+constexpr std::size_t kFewestLampPaths = 1024;
+constexpr std::size_t kMostLampPaths = 16'384;  // of a lamp
+constexpr std::size_t kPathsForAllLamps = 500'000;
 constexpr std::size_t kBlock = 64;  // paths or sides that a thread takes at once
 constexpr std::size_t kMostBounces = 8;
 // One path alone may have slipped through the seam of two walls.
@@ -213,9 +213,9 @@ std::vector<std::array<bool, 2>> find_lit_sides(const Scene& scene, const RaySce
                                                 const std::vector<Polygon>& polygons,
                                                 Progress& progress) {
     SideLight light(scene, rays, polygons);
-    const auto lamp_paths = static_cast<std::size_t>(
-        std::clamp(kPathsForAllLamps / std::max(1, static_cast<int>(scene.lamps.size())),
-                   kFewestLampPaths, kLampPaths));
+    const std::size_t lamp_paths =
+        std::clamp(kPathsForAllLamps / std::max<std::size_t>(1, scene.lamps.size()),
+                   kFewestLampPaths, kMostLampPaths);
     for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
         const Lamp& lamp = scene.lamps[i];
         if (lamp.type == LampType::kSun || max_component(lamp.power) <= 0) continue;
