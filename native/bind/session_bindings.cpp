@@ -22,6 +22,8 @@ namespace {
 
 // How often `cancelled` is asked. Stages look at the answer every 0.1 s or sooner (Progress).
 constexpr std::chrono::milliseconds kPollInterval{50};
+// How often progress is told within a stage: Blender prints a line each time, and draws the bar.
+constexpr std::chrono::milliseconds kReportInterval{200};
 
 // The two callbacks of a render. An exception in one of them cancels the render and is kept, so
 // that no Python exception travels through the core's threads.
@@ -31,9 +33,13 @@ public:
         : progress_(std::move(progress)), cancelled_(std::move(cancelled)) {}
 
     void report(Progress& progress, float fraction, const std::string& stage) {
-        if (!progress_.is_none()) {
-            guarded(progress, [&] { progress_(fraction, stage); });
+        const auto now = std::chrono::steady_clock::now();
+        if (progress_.is_none() || (stage == stage_ && now - reported_ < kReportInterval)) {
+            return;
         }
+        stage_ = stage;
+        reported_ = now;
+        guarded(progress, [&] { progress_(fraction, stage); });
     }
 
     void poll(Progress& progress) {
@@ -68,7 +74,9 @@ private:
     }
 
     py::object progress_, cancelled_;
-    std::exception_ptr error_;  // written and read with the GIL held
+    std::string stage_;                               // of the last report
+    std::chrono::steady_clock::time_point reported_;  // when it was made
+    std::exception_ptr error_;                        // written and read with the GIL held
 };
 
 // Asks `cancelled` from a thread of its own, so that no stage has to come back to Python for it.
