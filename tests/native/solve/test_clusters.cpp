@@ -28,7 +28,7 @@ struct Linked {
         options.antiradiance = false;
         options.cluster_links = clusters;
         options.link_threshold = 0.05F;
-        options.least_edge = 0.15F;  // a box has edges of .25 or more: its faces are still split
+        options.least_edge = 0.15F;  // the boxes have edges of .2 and more: still split
         test::LinkedScene linked(scene, 0.6F, options);
         Progress progress;
         apply_ray_visibility(linked.tree, rays, 4, linked.refined.pairs, linked.refined.links,

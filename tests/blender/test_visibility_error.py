@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What implicit visibility costs: the antiradiance solution against ray-tested links on the same
+link mesh (native/pipeline/compare_visibility.h), at default settings."""
+
+import json
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+SCENES = Path(__file__).resolve().parents[2] / "blend_scenes"
+
+
+class Floors(NamedTuple):
+    """Of the relative RMS over all leaves, by who carries the direct light."""
+
+    explicit: float
+    implicit: float
+
+
+# What a study of four rooms furnished with blocks reached, plus a margin; measured here: .036 and
+# .142, .038 and .097, .054 and .193. The office is held to 10 % above its own .066 and .181: the
+# study's .06 and .16 are missed with legs, shelves and books in place of blocks (a link threshold
+# of .01 reaches .056).
+FLOORS = {
+    "cornell_box": Floors(0.045, 0.15),
+    "two_rooms": Floors(0.075, 0.13),
+    "office": Floors(0.072, 0.20),
+    "corridor": Floors(0.10, 0.22),
+}
+CASES = [(scene, mode) for scene in FLOORS for mode in ("EXPLICIT", "IMPLICIT")]
+
+
+@pytest.fixture(scope="module")
+def errors(in_blender):
+    jobs = [[str(SCENES / f"{scene}.blend"), {"direct_light": mode}] for scene, mode in CASES]
+    return dict(zip(CASES, in_blender("visibility_error.py", json.dumps(jobs), timeout=900)))
+
+
+@pytest.mark.parametrize("scene, mode", CASES)
+def test_antiradiance_against_rays_on_the_same_links(errors, scene, mode):
+    error = errors[scene, mode]
+    assert error["converged"]
+    assert error["least_radiance"] == 0
+    assert error["leaves"] > 10_000
+    # Antiradiance is not exact: an error of 0 would mean that a solution was compared with itself.
+    assert 0.005 < error["relative_rms"] <= getattr(FLOORS[scene], mode.lower()), str(error)
+    assert abs(error["bias"]) < 0.05
