@@ -13,7 +13,7 @@ PANEL_OPTIONS = {
     "solution": ("visibility", "direct_light"),
     "link_mesh": ("max_patch_size", "link_threshold", "direction_bins", "visibility_rays"),
     "solver": ("solver", "iterations"),
-    "display": ("display",),
+    "display": ("display", "shooting_level", "shooting_samples", "interleave"),
     "report": ("report_path",),
 }
 

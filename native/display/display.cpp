@@ -1,22 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "display/display.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "display/bin_weights.h"
+#include "display/fragment_groups.h"
 #include "display/gbuffer.h"
+#include "display/interleave.h"
+#include "display/patch_lights.h"
+#include "display/shooting.h"
+#include "display/source_lists.h"
+#include "display/splatting.h"
+#include "solve/antiradiance_table.h"
 
 namespace antiradiance {
 
 namespace {
 
 // The part of the display's progress that the G-buffer and direct light take.
-constexpr float kGBufferShare = 0.9F;
+constexpr float kGBufferShare = 0.5F;
+constexpr ProgressSpan kIndirectSpan{kGBufferShare, 1};
+
+constexpr int kTileSize = 8;            // pixels along a side of what shares a list of sources
+constexpr float kCutThreshold = 0.02F;  // sr, projected, of a node at a tile
+constexpr int kBinMapSize = 256;        // texels along a face of the cube map of bin weights
 
 // Indirect irradiance of every fragment, W/m2.
-using IndirectLight = std::vector<vec3> (*)(const DisplayInput&, const GBuffer&, Progress&);
+using IndirectLight = std::vector<vec3> (*)(const DisplayInput&, const DisplayOptions&,
+                                            const GBuffer&, Progress&);
 
 // "No interpolation" in the paper's Fig. 9.
-std::vector<vec3> patch_irradiance(const DisplayInput& input, const GBuffer& buffer, Progress&) {
+std::vector<vec3> patch_irradiance(const DisplayInput& input, const DisplayOptions&,
+                                   const GBuffer& buffer, Progress&) {
     std::vector<vec3> irradiance(buffer.fragments.size(), vec3(0));
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
         const NodeId leaf = buffer.fragments[i].leaf;
@@ -25,12 +41,51 @@ std::vector<vec3> patch_irradiance(const DisplayInput& input, const GBuffer& buf
     return irradiance;
 }
 
+vec3 eye_of(const Camera& camera) {
+    return vec3(camera.to_world[3]);
+}
+
+std::vector<vec3> splatted_irradiance(const DisplayInput& input, const DisplayOptions&,
+                                      const GBuffer& buffer, Progress& progress) {
+    const FragmentGroups tiles = tile_groups(buffer, eye_of(input.scene.camera), kTileSize);
+    return splat(input.tree, input.irradiance, buffer, tiles, progress, kIndirectSpan);
+}
+
+std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
+                                  const GBuffer& buffer, Progress& progress) {
+    const AntiradianceTable antiradiance =
+        antiradiance_table(input.tree, input.links, input.radiance, progress);
+    const FragmentGroups groups = input.links_removed
+                                      ? receiver_groups(buffer)
+                                      : tile_groups(buffer, eye_of(input.scene.camera),
+                                                    std::max(kTileSize, options.interleave));
+    const ShootingLevel level = options.shooting_level;
+    SourceLists sources;
+    if (input.links_removed) {
+        sources =
+            linked_sources(input.tree, input.links, buffer, groups, level, kCutThreshold, progress);
+    } else if (level == ShootingLevel::kCut) {
+        sources = cut_sources(input.tree, groups, kCutThreshold, progress);
+    } else {
+        sources = all_sources(input.tree, level, groups.groups.size());
+    }
+    const PatchLights lights(input.tree, input.radiance, options.shooting_samples);
+    const BinWeights bins(input.links.bins, kBinMapSize);
+    const std::vector<vec3> irradiance =
+        shoot({input.tree, buffer, groups, sources, lights, antiradiance, bins,
+               2 * input.rays.epsilon(), options.interleave},
+              progress, kIndirectSpan);
+    return interleave_blur(buffer, irradiance, options.interleave, progress);
+}
+
 struct Mode {
     DisplayMode mode;
     IndirectLight indirect;
 };
 constexpr Mode kModes[] = {
     {DisplayMode::kPatches, &patch_irradiance},
+    {DisplayMode::kSplatting, &splatted_irradiance},
+    {DisplayMode::kFinalShooting, &shot_irradiance},
 };
 
 IndirectLight indirect_light_of(DisplayMode mode) {
@@ -42,11 +97,14 @@ IndirectLight indirect_light_of(DisplayMode mode) {
 
 }  // namespace
 
-Picture make_picture(const DisplayInput& input, DisplayMode mode, Progress& progress) {
-    GBuffer buffer = make_gbuffer({input.scene, input.rays, input.tree, input.direct,
-                                   input.film_transparent, input.samples_per_axis},
-                                  progress, {0, kGBufferShare});
-    const std::vector<vec3> indirect = indirect_light_of(mode)(input, buffer, progress);
+Picture make_picture(const DisplayInput& input, const DisplayOptions& options, Progress& progress) {
+    GBuffer buffer =
+        make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct,
+                      input.film_transparent, input.samples_per_axis},
+                     progress, {0, kGBufferShare});
+    std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));
+    if (input.tree.size() > 0)
+        indirect = indirect_light_of(options.mode)(input, options, buffer, progress);
     Picture picture;
     picture.width = buffer.width;
     picture.height = buffer.height;
@@ -55,7 +113,7 @@ Picture make_picture(const DisplayInput& input, DisplayMode mode, Progress& prog
     picture.normal = std::move(buffer.normal);
     for (std::size_t i = 0; i < buffer.fragments.size(); ++i) {
         const Fragment& f = buffer.fragments[i];
-        const vec3 radiance = f.light + f.albedo * kInvPi * indirect[i];
+        const vec3 radiance = f.light + f.albedo * kInvPi * glm::max(indirect[i], vec3(0));
         picture.combined[f.pixel] += f.coverage * vec4(radiance, 1);
     }
     progress.report(1);

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "display/display_options.h"
 #include "hierarchy/patch_tree.h"
+#include "links/link_set.h"
 #include "scene/ray_scene.h"
 #include "solve/direct_light.h"
 
@@ -26,12 +27,17 @@ struct DisplayInput {
     const Scene& scene;  // has a camera
     const RayScene& rays;
     const PatchTree& tree;
-    const DirectLight& direct;         // evaluated per pixel
-    std::span<const vec3> irradiance;  // #nodes, W/m2 that links brought to each leaf
-    bool film_transparent = false;     // no background, alpha 0 where nothing is seen
-    int samples_per_axis = 4;          // anti-aliasing, n x n a pixel
+    const LinkSet& links;
+    bool links_removed;         // a fragment is lit by what is still linked to its leaf only
+    const DirectLight& direct;  // evaluated per pixel
+    std::span<const vec3> leaf_direct;  // #nodes, W/m2 of it on each leaf
+    std::span<const vec3> irradiance;   // #nodes, W/m2 that links brought to each leaf
+    std::span<const vec3> radiance;     // #nodes, W/(m2 sr), L of Eq. 3
+    bool film_transparent = false;      // no background, alpha 0 where nothing is seen
+    int samples_per_axis = 4;           // anti-aliasing, n x n a pixel
 };
 
-[[nodiscard]] Picture make_picture(const DisplayInput& input, DisplayMode mode, Progress& progress);
+[[nodiscard]] Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
+                                   Progress& progress);
 
 }  // namespace antiradiance

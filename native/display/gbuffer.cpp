@@ -114,6 +114,10 @@ private:
         fragment.emission += scene.emission_at(hit.triangle, hit.barycentric);
     }
 
+    [[nodiscard]] bool is_lit(NodeId leaf) const {
+        return leaf != kNone && max_component(in_.leaf_direct[static_cast<std::size_t>(leaf)]) > 0;
+    }
+
     OpenFragment& find(std::int64_t key) {
         for (std::size_t i = 0; i < open_count_; ++i) {
             if (open_[i].key == key) return open_[i];
@@ -143,7 +147,7 @@ private:
         f.light = open.emission / count;
         if (max_component(f.albedo) > 0) {
             f.light += f.albedo * kInvPi *
-                       in_.direct.irradiance(open.points, kMostDirectRays,
+                       in_.direct.irradiance(open.points, kMostDirectRays, is_lit(open.leaf),
                                              hash_u32(static_cast<std::uint32_t>(pixel_)));
         }
         return f;

@@ -2,6 +2,7 @@
 // What the camera sees, with all that does not depend on the display mode already lit.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -40,8 +41,9 @@ struct GBufferInput {
     const RayScene& rays;
     const PatchTree& tree;
     const DirectLight& direct;
-    bool film_transparent;  // alpha 0 and no radiance where nothing is seen
-    int samples_per_axis;   // anti-aliasing: n x n jittered samples a pixel, box filter
+    std::span<const vec3> leaf_direct;  // #nodes, W/m2 of direct light on each leaf
+    bool film_transparent;              // alpha 0 and no radiance where nothing is seen
+    int samples_per_axis;               // anti-aliasing: n x n jittered samples a pixel, box filter
 };
 
 [[nodiscard]] GBuffer make_gbuffer(const GBufferInput& input, Progress& progress,

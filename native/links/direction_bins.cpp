@@ -5,35 +5,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "links/cube_map.h"
 
 namespace antiradiance {
 
 namespace {
 
 constexpr int kTexelFace = 40;  // texels along a cube face of the integration map
-
-// A point on the cube face 2 * axis + (negative ? 1 : 0) at (x, y) in [-1, 1]^2.
-vec3 cube_direction(int face, float x, float y) {
-    const int axis = face / 2;
-    vec3 d;
-    d[axis] = face % 2 ? -1.0F : 1.0F;
-    d[(axis + 1) % 3] = x;
-    d[(axis + 2) % 3] = y;
-    return d;
-}
-
-struct CubeCoordinate {
-    int face;
-    float x, y;
-};
-
-CubeCoordinate cube_coordinate(const vec3& d) {
-    const vec3 a = glm::abs(d);
-    const int axis = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
-    const float inverse = 1 / a[axis];
-    return {2 * axis + (d[axis] < 0 ? 1 : 0), d[(axis + 1) % 3] * inverse,
-            d[(axis + 2) % 3] * inverse};
-}
 
 // Rotates away from the axes of the world, to which the walls of most scenes are parallel.
 vec3 tilt(const vec3& d) {
@@ -70,16 +48,13 @@ DirectionBins::DirectionBins(int count) {
         }
         return best;
     };
-    const auto texel_center = [](int i, int size) {
-        return (2 * static_cast<float>(i) + 1) / static_cast<float>(size) - 1;
-    };
 
     table_.reserve(6UL * kFaceSize * kFaceSize);
     for (int face = 0; face < 6; ++face) {
         for (int y = 0; y < kFaceSize; ++y) {
             for (int x = 0; x < kFaceSize; ++x) {
-                table_.push_back(static_cast<std::uint16_t>(nearest(
-                    cube_direction(face, texel_center(x, kFaceSize), texel_center(y, kFaceSize)))));
+                table_.push_back(static_cast<std::uint16_t>(
+                    nearest(cube_texel_direction(face, x, y, kFaceSize))));
             }
         }
     }
@@ -88,8 +63,7 @@ DirectionBins::DirectionBins(int count) {
     for (int face = 0; face < 6; ++face) {
         for (int y = 0; y < kTexelFace; ++y) {
             for (int x = 0; x < kTexelFace; ++x) {
-                const vec3 d =
-                    cube_direction(face, texel_center(x, kTexelFace), texel_center(y, kTexelFace));
+                const vec3 d = cube_texel_direction(face, x, y, kTexelFace);
                 const float side = 2.0F / kTexelFace;
                 const float length = glm::length(d);
                 const vec3 unit = d / length;
@@ -106,12 +80,7 @@ DirectionBins::DirectionBins(int count) {
 }
 
 int DirectionBins::bin(const vec3& direction) const {
-    const CubeCoordinate c = cube_coordinate(direction);
-    const auto texel = [](float t) {
-        return std::clamp(static_cast<int>((t + 1) * (0.5F * kFaceSize)), 0, kFaceSize - 1);
-    };
-    return table_[static_cast<std::size_t>((c.face * kFaceSize + texel(c.y)) * kFaceSize +
-                                           texel(c.x))];
+    return table_[cube_texel(direction, kFaceSize)];
 }
 
 std::vector<float> DirectionBins::projected_solid_angles(const vec3& normal) const {

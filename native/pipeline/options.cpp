@@ -122,8 +122,44 @@ std::vector<OptionInfo> make_schema() {
                       .type = OptionType::kEnum,
                       .items = {{"PATCHES", "Patches",
                                  "One value of indirect light a patch, without interpolation; "
-                                 "explicit direct light is computed per pixel"}},
+                                 "explicit direct light is computed per pixel"},
+                                {"SPLATTING", "Splatting",
+                                 "Patches blended into each other in image space; smooth, but "
+                                 "without fine shadows"},
+                                {"FINAL_SHOOTING", "Final Shooting",
+                                 "Every pixel is lit by the patches as area lights, which gives "
+                                 "smooth light and contact shadows"}},
                       .access = access_to<&Options::display>()});
+    schema.push_back(
+        {.name = "shooting_level",
+         .label = "Shooting Level",
+         .tooltip = "Which patches light the pixels in final shooting",
+         .type = OptionType::kEnum,
+         .items = {{"LEAVES", "Leaves", "Every patch at the finest level; slow"},
+                   {"PARENTS", "Parents", "One level above the finest; a quarter of the patches"},
+                   {"CUT", "Cut",
+                    "Larger patches the farther they are, chosen for each tile of pixels"}},
+         .access = access_to<&Options::shooting_level>()});
+    schema.push_back({.name = "shooting_samples",
+                      .label = "Shooting Samples",
+                      .tooltip = "Points on each patch that lights a pixel, in final shooting",
+                      .type = OptionType::kInt,
+                      .min = 1,
+                      .max = 16,
+                      .soft_min = 1,
+                      .soft_max = 16,
+                      .access = access_to<&Options::shooting_samples>()});
+    schema.push_back(
+        {.name = "interleave",
+         .label = "Interleave",
+         .tooltip = "Blocks of this many pixels squared share out the patches that light them, and "
+                    "are blurred afterwards; 1 is exact, 4, 8 and 16 are faster and lose detail",
+         .type = OptionType::kInt,
+         .min = 1,
+         .max = 16,
+         .soft_min = 1,
+         .soft_max = 16,
+         .access = access_to<&Options::interleave>()});
     schema.push_back({.name = "report_path",
                       .label = "Report",
                       .tooltip = "File that a JSON report is written to after each render, also "

@@ -26,7 +26,10 @@ struct Options {
     int visibility_rays = 4;       // per link, 1..64
     SolverChoice solver = SolverChoice::kAuto;
     DisplayMode display = DisplayMode::kPatches;
-    std::string report_path;  // empty: no report is written
+    ShootingLevel shooting_level = ShootingLevel::kCut;
+    int shooting_samples = 8;  // points on each patch light, 1..16
+    int interleave = 1;        // pixels along a side, 1..16
+    std::string report_path;   // empty: no report is written
 
     bool operator==(const Options&) const = default;
 };

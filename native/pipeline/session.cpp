@@ -54,6 +54,10 @@ void describe(const Model& model, Report& report) {
     report.warnings.insert(report.warnings.end(), model.warnings.begin(), model.warnings.end());
 }
 
+DisplayOptions display_options(const Options& options) {
+    return {options.display, options.shooting_level, options.shooting_samples, options.interleave};
+}
+
 bool has_light(const Scene& scene) {
     for (const Lamp& lamp : scene.lamps) {
         if (max_component(lamp.power) > 0) return true;
@@ -82,6 +86,7 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
     report.timings_s.direct = watch.lap();
 
     std::vector<vec3> irradiance(model.tree.size(), vec3(0));
+    std::vector<vec3> radiance(model.tree.size(), vec3(0));
     if (model.tree.size() > 0) {
         progress.begin_stage("Solving", 0.6F, 0.75F);
         const TransportInput input =
@@ -104,6 +109,7 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
         }
         report.timings_s.solve = solution.seconds;
         irradiance = std::move(solution.irradiance);
+        radiance = std::move(solution.radiance);
     } else {
         report.solve = {"CPU", "", "no light reaches a surface: there is nothing to solve",
                         0,     0,  true};
@@ -113,9 +119,9 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
     progress.begin_stage("Display", 0.75F, 1);
     Picture picture;
     if (scene.has_camera) {
-        picture =
-            make_picture({scene, model.rays, model.tree, direct, irradiance, film_transparent},
-                         options.display, progress);
+        picture = make_picture({scene, model.rays, model.tree, model.links, false, direct,
+                                leaf_direct, irradiance, radiance, film_transparent},
+                               display_options(options), progress);
     }
     report.timings_s.display = watch.lap();
     return picture;

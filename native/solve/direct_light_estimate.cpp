@@ -133,11 +133,13 @@ double IrradianceEstimate::error_of(const Sum& sum) {
     return kSequenceGain * shadow + ratio * std::sqrt(variance) / sum.rays;
 }
 
-bool IrradianceEstimate::refine(float tolerance) {
+bool IrradianceEstimate::refine(float tolerance, int shadow_rays) {
     const double allowed = tolerance * luminance(mean());
     bool any = false;
     for (Sum& sum : sums_) {
-        sum.active = sum.active && error_of(sum) > allowed;
+        const bool hidden = sum.weight > 0 && max_component(sum.arrived) <= 0;
+        sum.active = sum.active && (hidden ? sum.rays < static_cast<std::uint32_t>(shadow_rays)
+                                           : error_of(sum) > allowed);
         any = any || sum.active;
     }
     if (chosen_active_) {

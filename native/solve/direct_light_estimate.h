@@ -25,6 +25,8 @@ inline constexpr double kOwnRays = 4;
 inline constexpr std::uint32_t kChoices = 64;
 // Rays for each emitter before the first look at the error.
 inline constexpr int kFirstRays = 16;
+// Rays for an emitter that seems to be hidden altogether, where nothing tells that it is not.
+inline constexpr int kShadowRays = 64;
 // Standard error at which rays end, relative to the irradiance: an eye sees about 0.02.
 inline constexpr float kPixelTolerance = 0.015F;
 inline constexpr float kLeafTolerance = 0.01F;
@@ -47,8 +49,9 @@ public:
     // One shadow ray to each emitter that is still active from each point.
     void add(std::span<const SurfacePoint> points);
 
-    // Leaves active only those emitters whose error matters; false: none does.
-    bool refine(float tolerance);
+    // Leaves active only those emitters whose error matters; false: none does. An emitter none of
+    // whose light has arrived says nothing of its error: it gets up to `shadow_rays`.
+    bool refine(float tolerance, int shadow_rays);
 
     [[nodiscard]] vec3 mean() const;  // W/m2
 

@@ -33,6 +33,9 @@ public:
     // damping: weight of the new Phi against the old, 0..1.
     void gather(std::span<const vec3> radiance, Sweep sweep, float damping, Progress& progress);
 
+    // Phi of the last gather, W/m2.  // #segments
+    [[nodiscard]] std::span<const vec3> flux() const { return phi_; }
+
     // Irradiance of all leaves from the last gather, W/m2.  // #nodes, 0 at inner nodes
     [[nodiscard]] std::vector<vec3> leaf_irradiance() const;
 

@@ -23,22 +23,35 @@ void direct_light(benchmark::State& state) {
 }
 BENCHMARK(direct_light)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void display(benchmark::State& state) {
+void display(benchmark::State& state, const DisplayOptions& options) {
     const Stages& room = stages(Visibility::kExplicit);
-    const std::vector<vec3> irradiance(room.model.tree.size(), vec3(1));
+    const std::vector<vec3> light(room.model.tree.size(), vec3(1));
     Meter meter(state);
     for (auto _ : state) {
         Progress progress;
         meter.time([&] {
-            benchmark::DoNotOptimize(make_picture(
-                {room.scene, room.model.rays, room.model.tree, *room.direct, irradiance},
-                DisplayMode::kPatches, progress));
+            benchmark::DoNotOptimize(
+                make_picture({room.scene, room.model.rays, room.model.tree, room.model.links, false,
+                              *room.direct, light, light, light},
+                             options, progress));
         });
     }
     const double pixels = static_cast<double>(room.scene.camera.width) * room.scene.camera.height;
     meter.report("pixels", pixels, sizeof(vec4) + sizeof(float) + sizeof(vec3));
 }
-BENCHMARK(display)->UseManualTime()->Unit(benchmark::kMillisecond);
+constexpr DisplayOptions shooting(ShootingLevel level, int interleave) {
+    return {DisplayMode::kFinalShooting, level, 8, interleave};
+}
+#define DISPLAY_BENCHMARK(name, ...) \
+    BENCHMARK_CAPTURE(display, name, __VA_ARGS__)->UseManualTime()->Unit(benchmark::kMillisecond)
+DISPLAY_BENCHMARK(patches, {DisplayMode::kPatches});
+DISPLAY_BENCHMARK(splatting, {DisplayMode::kSplatting});
+DISPLAY_BENCHMARK(shooting_cut, shooting(ShootingLevel::kCut, 1));
+DISPLAY_BENCHMARK(shooting_cut_4x4, shooting(ShootingLevel::kCut, 4));
+DISPLAY_BENCHMARK(shooting_cut_8x8, shooting(ShootingLevel::kCut, 8));
+DISPLAY_BENCHMARK(shooting_parents, shooting(ShootingLevel::kParents, 1));
+DISPLAY_BENCHMARK(shooting_leaves, shooting(ShootingLevel::kLeaves, 1));
+DISPLAY_BENCHMARK(shooting_leaves_8x8, shooting(ShootingLevel::kLeaves, 8));
 
 }  // namespace
 

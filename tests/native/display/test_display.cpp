@@ -48,12 +48,13 @@ struct Stage {
           irradiance(tree.size(), vec3(0)) {}
 
     GBuffer gbuffer(int samples_per_axis = 4, bool transparent = false) {
-        return make_gbuffer({scene, rays, tree, direct, transparent, samples_per_axis}, progress,
-                            {0, 1});
+        return make_gbuffer({scene, rays, tree, direct, irradiance, transparent, samples_per_axis},
+                            progress, {0, 1});
     }
     Picture picture(bool transparent = false) {
-        return make_picture({scene, rays, tree, direct, irradiance, transparent, 4},
-                            DisplayMode::kPatches, progress);
+        return make_picture({scene, rays, tree, LinkSet{}, false, direct, irradiance, irradiance,
+                             irradiance, transparent, 4},
+                            {.mode = DisplayMode::kPatches}, progress);
     }
 };
 

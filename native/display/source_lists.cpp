@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "display/source_lists.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace antiradiance {
+
+namespace {
+
+constexpr float kNear = 2;  // radii of a node within which it is refined
+
+class Cut {
+public:
+    Cut(const PatchTree& tree, float threshold) : tree_(tree), threshold_(threshold) {}
+
+    // Appends the cut below `from` as seen from a group.
+    void descend(NodeId from, const FragmentGroup& group, std::vector<NodeId>& out) const {
+        const NodeId stop = tree_.subtree_end[static_cast<std::size_t>(from)];
+        for (NodeId n = from; n < stop;) {
+            const NodeId next = tree_.subtree_end[static_cast<std::size_t>(n)];
+            if (below_horizon(n, group)) {
+                n = next;
+            } else if (!tree_.is_cluster(n) && (tree_.is_leaf(n) || is_small(n, group))) {
+                out.push_back(n);
+                n = next;
+            } else {
+                ++n;  // its first child
+            }
+        }
+    }
+
+private:
+    // Whether no point of the node can lie above any fragment's horizon.
+    [[nodiscard]] bool below_horizon(NodeId node, const FragmentGroup& group) const {
+        if (group.cone_cosine <= 0) return false;
+        const auto n = static_cast<std::size_t>(node);
+        const vec3 d = tree_.center[n] - group.center;
+        const float reach = tree_.radius[n] + group.radius;
+        const float distance = glm::length(d);
+        if (distance <= reach) return false;
+        // The same test as for a cluster of receivers: angle - cone - asin(reach / d) >= 90 deg.
+        const float cosine = glm::dot(d, group.normal) / distance;
+        if (cosine > 0) return false;
+        const float sine_cone =
+            std::sqrt(std::max(0.0F, 1 - group.cone_cosine * group.cone_cosine));
+        const float sine_reach = reach / distance;
+        const float cosine_reach = std::sqrt(1 - sine_reach * sine_reach);
+        if (group.cone_cosine * cosine_reach <= sine_cone * sine_reach) return false;
+        // -cosine = sin(angle - 90 deg) against sin(cone + reach), both angles below 90 degrees.
+        return -cosine >= sine_cone * cosine_reach + group.cone_cosine * sine_reach;
+    }
+
+    [[nodiscard]] bool is_small(NodeId node, const FragmentGroup& group) const {
+        const auto n = static_cast<std::size_t>(node);
+        const vec3 d = group.center - tree_.center[n];
+        const float distance = glm::length(d) - group.radius;
+        if (distance <= kNear * tree_.radius[n]) return false;
+        const float height = std::abs(glm::dot(d, tree_.normal[n])) + group.radius;
+        const float cosine = std::min(1.0F, height / distance);
+        return tree_.area[n] * cosine < threshold_ * distance * distance;
+    }
+
+    const PatchTree& tree_;
+    float threshold_;
+};
+
+bool stops(const PatchTree& tree, NodeId n, ShootingLevel level) {
+    if (tree.is_cluster(n)) return false;
+    if (tree.is_leaf(n)) return true;
+    return level == ShootingLevel::kParents && tree.is_leaf(n + 1);
+}
+
+void append_level(const PatchTree& tree, NodeId from, ShootingLevel level,
+                  std::vector<NodeId>& out) {
+    const NodeId stop = tree.subtree_end[static_cast<std::size_t>(from)];
+    for (NodeId n = from; n < stop;) {
+        const bool take = stops(tree, n, level);
+        if (take) out.push_back(n);
+        n = take ? tree.subtree_end[static_cast<std::size_t>(n)] : n + 1;
+    }
+}
+
+// Runs select(group, list) for all groups and joins the lists.
+template <typename Select>
+SourceLists collect(std::size_t group_count, Progress& progress, const Select& select) {
+    constexpr std::size_t kBlock = 16;
+    std::vector<std::vector<NodeId>> blocks((group_count + kBlock - 1) / kBlock);
+    SourceLists lists;
+    lists.begin.resize(group_count);
+    lists.end.resize(group_count);
+    parallel_for_blocks(group_count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+        std::vector<NodeId>& list = blocks[begin / kBlock];
+        for (std::size_t g = begin; g < end; ++g) {
+            progress.check();
+            lists.begin[g] = static_cast<std::uint32_t>(list.size());
+            select(g, list);
+            lists.end[g] = static_cast<std::uint32_t>(list.size());
+        }
+    });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const auto offset = static_cast<std::uint32_t>(lists.sources.size());
+        for (std::size_t g = b * kBlock; g < std::min(group_count, (b + 1) * kBlock); ++g) {
+            lists.begin[g] += offset;
+            lists.end[g] += offset;
+        }
+        lists.sources.insert(lists.sources.end(), blocks[b].begin(), blocks[b].end());
+        blocks[b] = {};
+    }
+    return lists;
+}
+
+}  // namespace
+
+SourceLists all_sources(const PatchTree& tree, ShootingLevel level, std::size_t group_count) {
+    SourceLists lists;
+    append_level(tree, 0, level, lists.sources);
+    lists.begin.assign(group_count, 0);
+    lists.end.assign(group_count, static_cast<std::uint32_t>(lists.sources.size()));
+    return lists;
+}
+
+SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups, float threshold,
+                        Progress& progress) {
+    const Cut cut(tree, threshold);
+    return collect(groups.groups.size(), progress, [&](std::size_t g, std::vector<NodeId>& list) {
+        cut.descend(0, groups.groups[g], list);
+    });
+}
+
+SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GBuffer& buffer,
+                           const FragmentGroups& groups, ShootingLevel level, float threshold,
+                           Progress& progress) {
+    // Segments by receiver.
+    std::vector<std::uint32_t> begin(tree.size() + 1, 0);
+    for (const Segment& s : links.segments)
+        ++begin[static_cast<std::size_t>(s.receiver) + 1];
+    for (std::size_t n = 0; n < tree.size(); ++n)
+        begin[n + 1] += begin[n];
+    std::vector<std::uint32_t> of_node(links.segments.size());
+    std::vector<std::uint32_t> fill(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < links.segments.size(); ++i)
+        of_node[fill[static_cast<std::size_t>(links.segments[i].receiver)]++] = i;
+
+    const Cut cut(tree, threshold);
+    return collect(groups.groups.size(), progress, [&](std::size_t g, std::vector<NodeId>& list) {
+        const FragmentGroup& group = groups.groups[g];
+        std::vector<NodeId> linked;
+        for (NodeId n = buffer.fragments[groups.order[group.begin]].leaf; n != kNone;
+             n = tree.parent[static_cast<std::size_t>(n)]) {
+            for (std::uint32_t i = begin[static_cast<std::size_t>(n)];
+                 i < begin[static_cast<std::size_t>(n) + 1]; ++i) {
+                const Segment& s = links.segments[of_node[i]];
+                for (std::uint32_t l = s.begin; l < s.end; ++l)
+                    linked.push_back(links.links[l].source);
+            }
+        }
+        // Once each: a source may be linked in several bins, and below another one.
+        std::sort(linked.begin(), linked.end());
+        NodeId covered = 0;  // all nodes before it are in the list
+        for (const NodeId source : linked) {
+            if (source < covered) continue;
+            covered = tree.subtree_end[static_cast<std::size_t>(source)];
+            if (level == ShootingLevel::kCut) {
+                cut.descend(source, group, list);
+            } else {
+                append_level(tree, source, level, list);
+            }
+        }
+    });
+}
+
+}  // namespace antiradiance

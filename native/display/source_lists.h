@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which patch lights light which fragments.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/progress.h"
+#include "display/display_options.h"
+#include "display/fragment_groups.h"
+#include "hierarchy/patch_tree.h"
+#include "links/link_set.h"
+
+namespace antiradiance {
+
+struct SourceLists {
+    std::vector<NodeId> sources;            // patches
+    std::vector<std::uint32_t> begin, end;  // of each group's list, into `sources`; #groups
+
+    [[nodiscard]] std::span<const NodeId> of(std::size_t group) const {
+        return {sources.data() + begin[group], end[group] - begin[group]};
+    }
+};
+
+// One list for all groups: every leaf, or every parent of leaves (and leaves that are a whole
+// surface), as in the paper's section 6.2.
+[[nodiscard]] SourceLists all_sources(const PatchTree& tree, ShootingLevel level,
+                                      std::size_t group_count);
+
+// A cut through the tree for each group: nodes are replaced by their children while the projected
+// solid angle at the group is above `threshold` (sr) or they are near (in the spirit of Walter et
+// al. 2005, "Lightcuts", but with one bound on geometry instead of one on error).
+[[nodiscard]] SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups,
+                                      float threshold, Progress& progress);
+
+// Only what links connect to the groups' receiver or its ancestors (groups of one leaf each), for
+// a link mesh that lost links: CUT starts at those sources and only descends, LEAVES takes the
+// leaves below them.
+[[nodiscard]] SourceLists linked_sources(const PatchTree& tree, const LinkSet& links,
+                                         const GBuffer& buffer, const FragmentGroups& groups,
+                                         ShootingLevel level, float threshold, Progress& progress);
+
+}  // namespace antiradiance
