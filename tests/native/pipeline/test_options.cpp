@@ -50,7 +50,8 @@ TEST(Options, SchemaHoldsEveryOptionOnce) {
     EXPECT_EQ(names,
               std::set<std::string>({"visibility", "direct_light", "direction_bins", "iterations",
                                      "link_threshold", "max_patch_size", "visibility_rays",
-                                     "solver", "display", "report_path"}));
+                                     "solver", "display", "shooting_level", "shooting_samples",
+                                     "interleave", "report_path"}));
 }
 
 TEST(Options, DefaultsLieWithinTheirLimits) {
