@@ -114,8 +114,9 @@ private:
         fragment.emission += scene.emission_at(hit.triangle, hit.barycentric);
     }
 
-    [[nodiscard]] bool is_lit(NodeId leaf) const {
-        return leaf != kNone && max_component(in_.leaf_direct[static_cast<std::size_t>(leaf)]) > 0;
+    // Luminance of the direct light on a fragment's leaf, W/m2.
+    [[nodiscard]] float expected(NodeId leaf) const {
+        return leaf == kNone ? 0 : luminance(in_.leaf_direct[static_cast<std::size_t>(leaf)]);
     }
 
     OpenFragment& find(std::int64_t key) {
@@ -147,7 +148,7 @@ private:
         f.light = open.emission / count;
         if (max_component(f.albedo) > 0) {
             f.light += f.albedo * kInvPi *
-                       in_.direct.irradiance(open.points, kMostDirectRays, is_lit(open.leaf),
+                       in_.direct.irradiance(open.points, kMostDirectRays, expected(open.leaf),
                                              hash_u32(static_cast<std::uint32_t>(pixel_)));
         }
         return f;

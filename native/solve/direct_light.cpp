@@ -48,7 +48,7 @@ bool DirectLight::any() const {
     return !impl_->emitters.empty();
 }
 
-vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int max_rays, bool lit,
+vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int max_rays, float expected,
                              std::uint32_t seed) const {
     if (points.empty() || !any()) return vec3(0);
     IrradianceEstimate estimate(*impl_, points, seed);
@@ -59,8 +59,8 @@ vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int max_rays,
         for (int i = 0; i < passes; ++i)
             estimate.add(points);
         rays += passes * count;
-        if (rays >= max_rays || !estimate.refine(kPixelTolerance, lit ? max_rays : kShadowRays))
-            break;
+        const bool missing = luminance(estimate.mean()) < 0.5F * expected;
+        if (rays >= max_rays || !estimate.refine(kPixelTolerance, missing ? max_rays : 0)) break;
         // Four times as many halve the error of rays without structure, and do better here.
         passes = std::min(3 * passes, (max_rays - rays + count - 1) / count);
     }

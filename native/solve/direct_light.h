@@ -34,11 +34,11 @@ public:
     // Mean irradiance, W/m2, over points of one surface that lie close together (those of a pixel).
     // Takes about 16 shadow rays for each light, up to `max_rays` (16..1024) where its shadow edge
     // crosses the points; a large number of lights shares them by the light they can bring.
-    // lit: light is known to arrive close by, so that a light that seems hidden is looked for with
-    // all rays: through a slit, most pixels would miss it and some find it.
-    // Deterministic in `seed`. From any thread.
-    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points, int max_rays, bool lit,
-                                  std::uint32_t seed) const;
+    // expected: luminance of what the surroundings get, W/m2, or 0. Points that seem to get less
+    // than half of it look for hidden lights with all rays: through a slit, most pixels would miss
+    // a light and some find it. Deterministic in `seed`. From any thread.
+    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points, int max_rays,
+                                  float expected, std::uint32_t seed) const;
 
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes
     [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree,

@@ -25,8 +25,8 @@ inline constexpr double kOwnRays = 4;
 inline constexpr std::uint32_t kChoices = 64;
 // Rays for each emitter before the first look at the error.
 inline constexpr int kFirstRays = 16;
-// Rays for an emitter that seems to be hidden altogether, where nothing tells that it is not.
-inline constexpr int kShadowRays = 64;
+// Rays of a leaf for an emitter that seems to be hidden altogether.
+inline constexpr int kLeafShadowRays = 64;
 // Standard error at which rays end, relative to the irradiance: an eye sees about 0.02.
 inline constexpr float kPixelTolerance = 0.015F;
 inline constexpr float kLeafTolerance = 0.01F;

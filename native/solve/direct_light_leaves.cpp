@@ -46,7 +46,7 @@ vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId lea
             estimate.add(points);
             rays += static_cast<int>(points.size());
         }
-        if (!estimate.refine(kLeafTolerance, kShadowRays)) break;
+        if (!estimate.refine(kLeafTolerance, kLeafShadowRays)) break;
     }
     return estimate.mean();
 }

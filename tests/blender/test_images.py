@@ -45,19 +45,17 @@ LIMITS = Floors(0.10, 0.20, 0.20)
 # Light is the reason for most of the figure: flat patches where indirect light has a gradient, and
 # in ALL_IMPLICIT the edges of shadows, which are as coarse as the patches.
 FLOORS = {
-    "cornell_box": Floors(0.030, 0.060, 0.200),  # 2.4, 4.8, 16.0; dark corners go below 0 and clamp
-    # Implicit: too much is taken from the corridor for what the rooms' lamps send through its walls;
-    # with a corridor a third as bright as the lit rooms it was 38 and 43 %.
-    "corridor": Floors(0.054, 0.192, 0.200),  # 4.4, 15.4, 17.2
-    "desks": Floors(0.059, 0.075, 0.124),  # 4.7, 5.9, 9.9; all of it a little dark, 3.5 to 5.7 %
-    "geometry_zoo": Floors(0.014, 0.021, 0.116),  # 1.1, 1.7, 9.3
-    "japanese_room": Floors(0.064, 0.077, 0.200),  # 5.1, 6.2, 18.1; dark by the corner post
-    "lamp_area": Floors(0.022, 0.027, 0.178),  # 1.8, 2.1, 14.2: each bay has one near lamp
+    "cornell_box": Floors(0.029, 0.060, 0.199),  # 2.3, 4.7, 15.9; dark corners go below 0 and clamp
+    "corridor": Floors(0.040, 0.077, 0.165),  # 3.2, 6.1, 13.2
+    "desks": Floors(0.045, 0.058, 0.085),  # 3.6, 4.7, 6.8; all of it a little dark, 2.4 to 3.8 %
+    "geometry_zoo": Floors(0.013, 0.017, 0.095),  # 1.0, 1.3, 7.5
+    "japanese_room": Floors(0.039, 0.051, 0.098),  # 3.1, 4.1, 7.8
+    "lamp_area": Floors(0.022, 0.027, 0.136),  # 1.8, 2.2, 10.8: each bay has one near lamp
     "lamp_point": Floors(0.008, 0.012, 0.012),  # 0.6, 1.0, 1.0: no patch emits, so that the last
     "lamp_spot": Floors(0.010, 0.015, 0.015),  # 0.8, 1.2, 1.2  two modes are the same
     "lamp_sun": Floors(0.010, 0.017, 0.017),  # 0.8, 1.4, 1.4
-    "office": Floors(0.065, 0.068, 0.119),  # 5.2, 5.4, 9.5; a little dark, 3.3 to 5.1 %
-    "two_rooms": Floors(0.040, 0.054, 0.126),  # 3.2, 4.3, 10.1
+    "office": Floors(0.037, 0.050, 0.066),  # 2.9, 4.0, 5.2; a little dark, 1 to 2 %
+    "two_rooms": Floors(0.024, 0.048, 0.098),  # 1.9, 3.8, 7.8
 }
 
 LAMP_SCENES = [name for name in REFERENCES if name.startswith("lamp_")]
@@ -165,6 +163,7 @@ def patch_of(pixels, x, y, size=4):
 # Parts of pictures, (left, top, right, bottom) in shares of the width and height, that are too dark
 # or too small to tell in the figure of the whole, each with what it shows.
 PARTS = {
+    "corridor": {"dark room at the right edge": (0.91, 0.5, 1.0, 0.95)},
     "two_rooms": {
         "dark room's far wall, lit through the door alone": (0.48, 0.28, 0.6, 0.45),
         "dark room's floor": (0.48, 0.7, 0.6, 0.8),
@@ -184,12 +183,22 @@ PARTS = {
 }
 
 
-# Of the mean of a part. Antiradiance takes a quarter of their light from the dark room's walls.
-PART_LIMITS = Floors(0.10, 0.30, 0.30)
+# Of the mean of a part, each colour by itself.
+PART_LIMITS = Floors(0.10, 0.20, 0.30)
+
+# What antiradiance leaves of bright rooms' light behind their walls, in a room that has 3 % of it.
+LEAK = pytest.mark.xfail(strict=True, reason="12, 27 and 64 % too bright in red, green and blue")
 
 
-@pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("scene, part", [(s, p) for s, parts in PARTS.items() for p in parts])
+def part_cases():
+    for scene, parts in PARTS.items():
+        for part in parts:
+            for mode in MODES:
+                leaks = (scene, mode) == ("corridor", "ALL_IMPLICIT")
+                yield pytest.param(scene, part, mode, marks=[LEAK] if leaks else [])
+
+
+@pytest.mark.parametrize("scene, part, mode", part_cases())
 def test_parts_of_pictures(pictures, scene, part, mode):
     picture, cycles = read_rgb(pictures(scene)[mode].path), read_rgb(reference(scene))
     height, width = cycles.shape[:2]
