@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "links/cube_map.h"
+
 namespace antiradiance {
 
 namespace {
 
 constexpr float kDepthJump = 1.15F;  // ratio of distances between which a tile is split
-
-int dominant_side(const vec3& n) {
-    const vec3 a = glm::abs(n);
-    const int axis = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
-    return 2 * axis + (n[axis] < 0 ? 1 : 0);
-}
 
 FragmentGroup make_group(const GBuffer& buffer, const std::vector<std::uint32_t>& order,
                          std::uint32_t begin, std::uint32_t end) {
@@ -37,6 +33,19 @@ FragmentGroup make_group(const GBuffer& buffer, const std::vector<std::uint32_t>
     return group;
 }
 
+// Cuts the order into groups wherever two neighbours in it are apart(i, i + 1).
+template <typename Apart>
+void cut_into_groups(const GBuffer& buffer, const Apart& apart, FragmentGroups& result) {
+    const auto count = static_cast<std::uint32_t>(result.order.size());
+    for (std::uint32_t begin = 0; begin < count;) {
+        std::uint32_t end = begin + 1;
+        while (end < count && !apart(end - 1, end))
+            ++end;
+        result.groups.push_back(make_group(buffer, result.order, begin, end));
+        begin = end;
+    }
+}
+
 }  // namespace
 
 FragmentGroups tile_groups(const GBuffer& buffer, const vec3& eye, int tile_size) {
@@ -52,7 +61,8 @@ FragmentGroups tile_groups(const GBuffer& buffer, const vec3& eye, int tile_size
     keys.reserve(buffer.fragments.size());
     for (const Fragment& f : buffer.fragments) {
         const std::uint32_t tile = f.pixel / width / size * across + f.pixel % width / size;
-        keys.push_back({tile, dominant_side(f.shading_normal), glm::distance(f.position, eye)});
+        keys.push_back(
+            {tile, cube_coordinate(f.shading_normal).face, glm::distance(f.position, eye)});
     }
     FragmentGroups result;
     result.order.resize(keys.size());
@@ -69,14 +79,7 @@ FragmentGroups tile_groups(const GBuffer& buffer, const vec3& eye, int tile_size
         const Key& b = keys[result.order[j]];
         return a.tile != b.tile || a.side != b.side || b.distance > kDepthJump * a.distance;
     };
-    const auto count = static_cast<std::uint32_t>(result.order.size());
-    for (std::uint32_t begin = 0; begin < count;) {
-        std::uint32_t end = begin + 1;
-        while (end < count && !apart(end - 1, end))
-            ++end;
-        result.groups.push_back(make_group(buffer, result.order, begin, end));
-        begin = end;
-    }
+    cut_into_groups(buffer, apart, result);
     return result;
 }
 
@@ -88,14 +91,12 @@ FragmentGroups receiver_groups(const GBuffer& buffer) {
     }
     std::stable_sort(result.order.begin(), result.order.end(),
                      [&](std::uint32_t i, std::uint32_t j) { return leaf(i) < leaf(j); });
-    const auto count = static_cast<std::uint32_t>(result.order.size());
-    for (std::uint32_t begin = 0; begin < count;) {
-        std::uint32_t end = begin + 1;
-        while (end < count && leaf(result.order[end]) == leaf(result.order[begin]))
-            ++end;
-        result.groups.push_back(make_group(buffer, result.order, begin, end));
-        begin = end;
-    }
+    cut_into_groups(
+        buffer,
+        [&](std::uint32_t i, std::uint32_t j) {
+            return leaf(result.order[i]) != leaf(result.order[j]);
+        },
+        result);
     return result;
 }
 
