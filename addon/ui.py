@@ -13,7 +13,8 @@ PANEL_OPTIONS = {
     "solution": ("visibility", "direct_light"),
     "link_mesh": ("max_patch_size", "link_threshold", "direction_bins", "visibility_rays"),
     "solver": ("solver", "iterations"),
-    "display": ("display", "shooting_level", "shooting_samples", "interleave"),
+    "display": ("display", "shooting_level", "shooting_visibility", "shooting_samples",
+                "interleave", "bin_map_size"),
     "report": ("report_path",),
 }
 

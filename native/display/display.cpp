@@ -24,7 +24,6 @@ constexpr ProgressSpan kIndirectSpan{kGBufferShare, 1};
 
 constexpr int kTileSize = 8;            // pixels along a side of what shares a list of sources
 constexpr float kCutThreshold = 0.02F;  // sr, projected, of a node at a tile
-constexpr int kBinMapSize = 256;        // texels along a face of the cube map of bin weights
 
 // Indirect irradiance of every fragment, W/m2.
 using IndirectLight = std::vector<vec3> (*)(const DisplayInput&, const DisplayOptions&,
@@ -51,10 +50,38 @@ std::vector<vec3> splatted_irradiance(const DisplayInput& input, const DisplayOp
     return splat(input.tree, input.irradiance, buffer, tiles, progress, kIndirectSpan);
 }
 
+// Direct and indirect light of the leaves, W/m2.
+std::vector<vec3> total_irradiance(const DisplayInput& input) {
+    std::vector<vec3> sum(input.irradiance.begin(), input.irradiance.end());
+    for (std::size_t n = 0; n < sum.size(); ++n)
+        sum[n] += input.leaf_direct[n];
+    return sum;
+}
+
+std::vector<vec3> shoot_by_rays(const DisplayInput& input, const PatchLights& lights,
+                                const ShootingInput& shooting, Progress& progress) {
+    return shoot(
+        shooting, [&] { return make_ray_shooter(input.tree, lights, input.rays); }, progress,
+        kIndirectSpan);
+}
+
+std::vector<vec3> shoot_by_antiradiance(const DisplayInput& input, const PatchLights& lights,
+                                        int bin_map_size, const ShootingInput& shooting,
+                                        Progress& progress) {
+    const AntiradianceTable table =
+        antiradiance_table(input.tree, input.links, input.radiance, progress);
+    const BinWeights bins(input.links.bins, bin_map_size);
+    return shoot(
+        shooting,
+        [&] {
+            return make_antiradiance_shooter(input.tree, lights, table, bins,
+                                             2 * input.rays.epsilon());
+        },
+        progress, kIndirectSpan);
+}
+
 std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
                                   const GBuffer& buffer, Progress& progress) {
-    const AntiradianceTable antiradiance =
-        antiradiance_table(input.tree, input.links, input.radiance, progress);
     const FragmentGroups groups = input.links_removed
                                       ? receiver_groups(buffer)
                                       : tile_groups(buffer, eye_of(input.scene.camera),
@@ -70,11 +97,13 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
         sources = all_sources(input.tree, level, groups.groups.size());
     }
     const PatchLights lights(input.tree, input.radiance, options.shooting_samples);
-    const BinWeights bins(input.links.bins, kBinMapSize);
+    const std::vector<vec3> leaf_light = total_irradiance(input);
+    const ShootingInput shooting{input.tree, buffer,     groups,
+                                 sources,    leaf_light, options.interleave};
     const std::vector<vec3> irradiance =
-        shoot({input.tree, buffer, groups, sources, lights, antiradiance, bins,
-               2 * input.rays.epsilon(), options.interleave},
-              progress, kIndirectSpan);
+        options.shooting_visibility == ShootingVisibility::kRays
+            ? shoot_by_rays(input, lights, shooting, progress)
+            : shoot_by_antiradiance(input, lights, options.bin_map_size, shooting, progress);
     return interleave_blur(buffer, irradiance, options.interleave, progress);
 }
 

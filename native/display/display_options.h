@@ -16,10 +16,19 @@ enum class ShootingLevel {
     kCut,      // chosen for each tile of pixels by size and distance
 };
 
+// What stops the light of a patch on its way to a fragment.
+enum class ShootingVisibility {
+    kAuto,          // rays where the links were tested with rays, else antiradiance
+    kAntiradiance,  // what patches in the way send on behind them
+    kRays,          // shadow rays
+};
+
 struct DisplayOptions {
-    DisplayMode mode = DisplayMode::kPatches;
+    DisplayMode mode = DisplayMode::kFinalShooting;
     ShootingLevel shooting_level = ShootingLevel::kCut;
+    ShootingVisibility shooting_visibility = ShootingVisibility::kRays;  // not kAuto
     int shooting_samples = 8;  // points on each patch light, 1..16
+    int bin_map_size = 256;    // texels along a face of the cube map of bin weights, 32..1024
     int interleave = 1;        // n: every n x n pixels share out the sources, 1..16
     bool operator==(const DisplayOptions&) const = default;
 };

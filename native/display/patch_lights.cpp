@@ -2,6 +2,7 @@
 #include "display/patch_lights.h"
 
 #include "base/random.h"
+#include "links/visibility.h"
 
 namespace antiradiance {
 
@@ -9,6 +10,7 @@ PatchLights::PatchLights(const PatchTree& tree, std::span<const vec3> radiance, 
     : samples_(samples),
       lights_(tree.size()),
       points_(tree.size() * static_cast<std::size_t>(samples)) {
+    const SurfaceSampler sampler(tree);
     for (std::size_t n = 0; n < tree.size(); ++n) {
         const auto id = static_cast<NodeId>(n);
         if (tree.is_cluster(id)) continue;
@@ -21,7 +23,7 @@ PatchLights::PatchLights(const PatchTree& tree, std::span<const vec3> radiance, 
                                       static_cast<std::uint32_t>(place.y * 65536)));
         for (int i = 0; i < samples; ++i) {
             points_[n * static_cast<std::size_t>(samples) + static_cast<std::size_t>(i)] =
-                tree.patch_point(id, r2_sample(static_cast<std::uint32_t>(i), seed));
+                sampler.sample(id, r2_sample(static_cast<std::uint32_t>(i), seed)).point;
         }
     }
 }

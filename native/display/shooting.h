@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Final shooting (the paper's section 5): fragments lit by patch lights, radiance in front of each
-// and antiradiance behind it.
+// Final shooting (the paper's section 5): each fragment is lit by the patches of its group's list.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "base/progress.h"
-#include "display/bin_weights.h"
 #include "display/fragment_groups.h"
-#include "display/patch_lights.h"
+#include "display/patch_shooter.h"
 #include "display/source_lists.h"
-#include "solve/antiradiance_table.h"
 
 namespace antiradiance {
 
@@ -19,17 +19,17 @@ struct ShootingInput {
     const GBuffer& buffer;
     const FragmentGroups& groups;
     const SourceLists& sources;
-    const PatchLights& lights;
-    const AntiradianceTable& antiradiance;
-    const BinWeights& bins;
-    float epsilon;  // m, heights above a plane that rounding explains
+    std::span<const vec3> leaf_light;  // #nodes, W/m2, all that leaves get; tells strong patches
+                                       // from weak ones
     // n: pixel (x, y) of each n x n block takes every n^2-th source (Segovia et al. 2006); the
     // result is n^2 times as large and wants interleave_blur().
     int interleave = 1;
 };
 
-// Irradiance of every fragment, W/m2; may be negative by the antiradiance's error.  // #fragments
-[[nodiscard]] std::vector<vec3> shoot(const ShootingInput& input, Progress& progress,
-                                      ProgressSpan span);
+using MakeShooter = std::function<std::unique_ptr<PatchShooter>()>;  // called from any thread
+
+// Irradiance of every fragment, W/m2; may be negative by an antiradiance's error.  // #fragments
+[[nodiscard]] std::vector<vec3> shoot(const ShootingInput& input, const MakeShooter& make_shooter,
+                                      Progress& progress, ProgressSpan span);
 
 }  // namespace antiradiance

@@ -99,10 +99,12 @@ void check_memory(const Scene& scene, const std::vector<Surface>& surfaces, floa
 
 // Directions that links are sorted by. Between patches EXPLICIT asks for none, and with the fewest
 // bins it needs less memory and time for the same light; clusters send into each bin its own, and
-// final shooting sends antiradiance on by bins.
+// final shooting without rays sends antiradiance on by bins.
 int link_bins(const Options& options, bool cluster_links) {
-    const bool directed = options.visibility == Visibility::kImplicit || cluster_links ||
-                          options.display == DisplayMode::kFinalShooting;
+    const DisplayOptions display = options.resolved_display();
+    const bool shot = display.mode == DisplayMode::kFinalShooting &&
+                      display.shooting_visibility == ShootingVisibility::kAntiradiance;
+    const bool directed = options.visibility == Visibility::kImplicit || cluster_links || shot;
     return directed ? options.direction_bins : kFewestBins;
 }
 

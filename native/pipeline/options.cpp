@@ -140,6 +140,18 @@ std::vector<OptionInfo> make_schema() {
                    {"CUT", "Cut",
                     "Larger patches the farther they are, chosen for each tile of pixels"}},
          .access = access_to<&Options::shooting_level>()});
+    schema.push_back(
+        {.name = "shooting_visibility",
+         .label = "Shooting Visibility",
+         .tooltip = "What stops the light of a patch on its way to a pixel, in final shooting",
+         .type = OptionType::kEnum,
+         .items = {{"AUTO", "Automatic", "Rays when Visibility is Explicit, else antiradiance"},
+                   {"ANTIRADIANCE", "Antiradiance",
+                    "Patches in the way send what they block on behind them as negative light: no "
+                    "rays, smooth, but wrong within a few centimetres behind a surface"},
+                   {"RAYS", "Rays",
+                    "Shadow rays to the patches, on the processor: contact shadows are exact"}},
+         .access = access_to<&Options::shooting_visibility>()});
     schema.push_back({.name = "shooting_samples",
                       .label = "Shooting Samples",
                       .tooltip = "Points on each patch that lights a pixel, in final shooting",
@@ -149,6 +161,16 @@ std::vector<OptionInfo> make_schema() {
                       .soft_min = 1,
                       .soft_max = 16,
                       .access = access_to<&Options::shooting_samples>()});
+    schema.push_back({.name = "bin_map_size",
+                      .label = "Bin Map Size",
+                      .tooltip = "Resolution of the table that blends direction bins into each "
+                                 "other when antiradiance is shot, along a face of its cube",
+                      .type = OptionType::kInt,
+                      .min = 32,
+                      .max = 1024,
+                      .soft_min = 64,
+                      .soft_max = 512,
+                      .access = access_to<&Options::bin_map_size>()});
     schema.push_back(
         {.name = "interleave",
          .label = "Interleave",
@@ -219,6 +241,17 @@ void set_number(Options& options, const OptionInfo& option, const OptionValue& v
 }
 
 }  // namespace
+
+DisplayOptions Options::resolved_display() const {
+    DisplayOptions result{display,          shooting_level, shooting_visibility,
+                          shooting_samples, bin_map_size,   interleave};
+    if (shooting_visibility == ShootingVisibility::kAuto) {
+        result.shooting_visibility = visibility == Visibility::kExplicit
+                                         ? ShootingVisibility::kRays
+                                         : ShootingVisibility::kAntiradiance;
+    }
+    return result;
+}
 
 std::span<const OptionInfo> option_schema() {
     static const std::vector<OptionInfo> schema = make_schema();

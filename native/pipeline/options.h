@@ -25,13 +25,18 @@ struct Options {
     float max_patch_size = 0;      // m, longest edge; 0: from the scene's size
     int visibility_rays = 4;       // per link, 1..64
     SolverChoice solver = SolverChoice::kAuto;
-    DisplayMode display = DisplayMode::kPatches;
+    DisplayMode display = DisplayMode::kFinalShooting;
     ShootingLevel shooting_level = ShootingLevel::kCut;
+    ShootingVisibility shooting_visibility = ShootingVisibility::kAuto;
     int shooting_samples = 8;  // points on each patch light, 1..16
+    int bin_map_size = 256;    // texels along a face, 32..1024
     int interleave = 1;        // pixels along a side, 1..16
     std::string report_path;   // empty: no report is written
 
     bool operator==(const Options&) const = default;
+
+    // Of the display, with nothing left to choose.
+    [[nodiscard]] DisplayOptions resolved_display() const;
 };
 
 struct EnumItem {

@@ -54,10 +54,6 @@ void describe(const Model& model, Report& report) {
     report.warnings.insert(report.warnings.end(), model.warnings.begin(), model.warnings.end());
 }
 
-DisplayOptions display_options(const Options& options) {
-    return {options.display, options.shooting_level, options.shooting_samples, options.interleave};
-}
-
 bool has_light(const Scene& scene) {
     for (const Lamp& lamp : scene.lamps) {
         if (max_component(lamp.power) > 0) return true;
@@ -121,7 +117,7 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
     if (scene.has_camera) {
         picture = make_picture({scene, model.rays, model.tree, model.links, false, direct,
                                 leaf_direct, irradiance, radiance, film_transparent},
-                               display_options(options), progress);
+                               options.resolved_display(), progress);
     }
     report.timings_s.display = watch.lap();
     return picture;

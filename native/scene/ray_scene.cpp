@@ -60,6 +60,23 @@ bool blocked(RTCScene scene, RTCRay& ray) {
     return ray.tfar < 0;
 }
 
+constexpr std::size_t kPacket = 8;
+
+// valid: -1 for each ray that counts. Sets tfar < 0 where a ray is blocked.
+void blocked(RTCScene scene, const int* valid, RTCRay8& rays) {
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &rays, &arguments);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &context, &rays);
+#endif
+}
+
 RTCRay make_ray(const vec3& origin, const vec3& direction, float near, float far) {
     RTCRay ray{};
     ray.org_x = origin.x;
@@ -156,6 +173,32 @@ bool RayScene::occluded(const vec3& a, const vec3& b) const {
     if (length <= 2 * epsilon_) return false;
     RTCRay ray = make_ray(a, d / length, epsilon_, length - epsilon_);
     return blocked(impl_->scene.get(), ray);
+}
+
+void RayScene::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked_by) const {
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        const std::size_t count = std::min(kPacket, rays.size() - first);
+        alignas(32) int valid[kPacket] = {};
+        RTCRay8 packet{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 d = rays[first + i].to - rays[first + i].from;
+            const float length = glm::length(d);
+            if (length <= 2 * epsilon_) continue;
+            valid[i] = -1;
+            packet.org_x[i] = rays[first + i].from.x;
+            packet.org_y[i] = rays[first + i].from.y;
+            packet.org_z[i] = rays[first + i].from.z;
+            packet.dir_x[i] = d.x / length;
+            packet.dir_y[i] = d.y / length;
+            packet.dir_z[i] = d.z / length;
+            packet.tnear[i] = epsilon_;
+            packet.tfar[i] = length - epsilon_;
+            packet.mask[i] = ~0U;
+        }
+        blocked(impl_->scene.get(), valid, packet);
+        for (std::size_t i = 0; i < count; ++i)
+            blocked_by[first + i] = valid[i] != 0 && packet.tfar[i] < 0 ? 1 : 0;
+    }
 }
 
 bool RayScene::escapes(const vec3& origin, const vec3& direction) const {

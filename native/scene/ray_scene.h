@@ -2,7 +2,9 @@
 // Rays against the original triangles (Embree 3 or 4). The only file pair that knows Embree.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "scene/scene.h"
 
@@ -14,6 +16,10 @@ struct RayHit {
     vec2 barycentric{0};          // weights of corners 1 and 2
     float distance = 0;           // m
     [[nodiscard]] bool hit() const { return triangle != kNone; }
+};
+
+struct ShadowRay {
+    vec3 from, to;  // m
 };
 
 class RayScene {
@@ -31,6 +37,9 @@ public:
     // epsilon(), so surfaces that hold a or b do not count; offset a and b along their own normals
     // by epsilon() first when they lie on a surface.
     [[nodiscard]] bool occluded(const vec3& a, const vec3& b) const;
+    // blocked[i] = occluded(rays[i].from, rays[i].to), in packets: faster where rays that follow
+    // each other run side by side.
+    void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked) const;
     // Towards infinity.
     [[nodiscard]] bool escapes(const vec3& origin, const vec3& direction) const;
 

@@ -39,19 +39,28 @@ void display(benchmark::State& state, const DisplayOptions& options) {
     const double pixels = static_cast<double>(room.scene.camera.width) * room.scene.camera.height;
     meter.report("pixels", pixels, sizeof(vec4) + sizeof(float) + sizeof(vec3));
 }
-constexpr DisplayOptions shooting(ShootingLevel level, int interleave) {
-    return {DisplayMode::kFinalShooting, level, 8, interleave};
+constexpr DisplayOptions shooting(ShootingVisibility visibility, ShootingLevel level,
+                                  int interleave) {
+    return {.mode = DisplayMode::kFinalShooting,
+            .shooting_level = level,
+            .shooting_visibility = visibility,
+            .interleave = interleave};
 }
 #define DISPLAY_BENCHMARK(name, ...) \
     BENCHMARK_CAPTURE(display, name, __VA_ARGS__)->UseManualTime()->Unit(benchmark::kMillisecond)
 DISPLAY_BENCHMARK(patches, {DisplayMode::kPatches});
 DISPLAY_BENCHMARK(splatting, {DisplayMode::kSplatting});
-DISPLAY_BENCHMARK(shooting_cut, shooting(ShootingLevel::kCut, 1));
-DISPLAY_BENCHMARK(shooting_cut_4x4, shooting(ShootingLevel::kCut, 4));
-DISPLAY_BENCHMARK(shooting_cut_8x8, shooting(ShootingLevel::kCut, 8));
-DISPLAY_BENCHMARK(shooting_parents, shooting(ShootingLevel::kParents, 1));
-DISPLAY_BENCHMARK(shooting_leaves, shooting(ShootingLevel::kLeaves, 1));
-DISPLAY_BENCHMARK(shooting_leaves_8x8, shooting(ShootingLevel::kLeaves, 8));
+
+constexpr auto kRays = ShootingVisibility::kRays;
+constexpr auto kAntiradiance = ShootingVisibility::kAntiradiance;
+DISPLAY_BENCHMARK(rays_cut, shooting(kRays, ShootingLevel::kCut, 1));
+DISPLAY_BENCHMARK(rays_cut_4x4, shooting(kRays, ShootingLevel::kCut, 4));
+DISPLAY_BENCHMARK(shooting_cut, shooting(kAntiradiance, ShootingLevel::kCut, 1));
+DISPLAY_BENCHMARK(shooting_cut_4x4, shooting(kAntiradiance, ShootingLevel::kCut, 4));
+DISPLAY_BENCHMARK(shooting_cut_8x8, shooting(kAntiradiance, ShootingLevel::kCut, 8));
+DISPLAY_BENCHMARK(shooting_parents, shooting(kAntiradiance, ShootingLevel::kParents, 1));
+DISPLAY_BENCHMARK(shooting_leaves, shooting(kAntiradiance, ShootingLevel::kLeaves, 1));
+DISPLAY_BENCHMARK(shooting_leaves_8x8, shooting(kAntiradiance, ShootingLevel::kLeaves, 8));
 
 }  // namespace
 

@@ -310,7 +310,8 @@ def test_options_are_those_of_the_issue(in_blender):
         "direct_light": ["EXPLICIT", ["EXPLICIT", "IMPLICIT"]],
         "direction_bins": [128, null], "iterations": [0, null], "link_threshold": [0.02, null],
         "max_patch_size": [0.0, null], "visibility_rays": [4, null],
-        "solver": ["AUTO", ["AUTO", "OPENGL", "CPU"]], "display": ["PATCHES", ["PATCHES", "SPLATTING", "FINAL_SHOOTING"]],
-        "shooting_level": ["CUT", ["LEAVES", "PARENTS", "CUT"]], "shooting_samples": [8, null],
-        "interleave": [1, null],
+        "solver": ["AUTO", ["AUTO", "OPENGL", "CPU"]], "display": ["FINAL_SHOOTING", ["PATCHES", "SPLATTING", "FINAL_SHOOTING"]],
+        "shooting_level": ["CUT", ["LEAVES", "PARENTS", "CUT"]],
+        "shooting_visibility": ["AUTO", ["AUTO", "ANTIRADIANCE", "RAYS"]],
+        "shooting_samples": [8, null], "interleave": [1, null], "bin_map_size": [256, null],
         "report_path": ["", null]}""")

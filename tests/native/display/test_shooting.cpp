@@ -42,9 +42,11 @@ protected:
         const SourceLists sources = level == ShootingLevel::kCut
                                         ? cut_sources(tree_, groups, 0.02F, progress)
                                         : all_sources(tree_, level, groups.groups.size());
-        return shoot({tree_, buffer, groups, sources, PatchLights(tree_, radiance_, 8), table_,
-                      weights_, 1e-5F, interleave},
-                     progress, {});
+        const PatchLights lights(tree_, radiance_, 8);
+        return shoot(
+            {tree_, buffer, groups, sources, radiance_, interleave},
+            [&] { return make_antiradiance_shooter(tree_, lights, table_, weights_, 1e-5F); },
+            progress, {});
     }
 
     Scene scene_;

@@ -47,11 +47,11 @@ TEST(Options, SchemaHoldsEveryOptionOnce) {
         EXPECT_NE(o.tooltip.back(), '.') << o.name << ": Blender adds the full stop";
         EXPECT_EQ(o.type == OptionType::kEnum, !o.items.empty()) << o.name;
     }
-    EXPECT_EQ(names,
-              std::set<std::string>({"visibility", "direct_light", "direction_bins", "iterations",
-                                     "link_threshold", "max_patch_size", "visibility_rays",
-                                     "solver", "display", "shooting_level", "shooting_samples",
-                                     "interleave", "report_path"}));
+    EXPECT_EQ(names, std::set<std::string>(
+                         {"visibility", "direct_light", "direction_bins", "iterations",
+                          "link_threshold", "max_patch_size", "visibility_rays", "solver",
+                          "display", "shooting_level", "shooting_visibility", "shooting_samples",
+                          "bin_map_size", "interleave", "report_path"}));
 }
 
 TEST(Options, DefaultsLieWithinTheirLimits) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "display/patch_shooter.h"
+#include "links/form_factor.h"
+
+namespace antiradiance {
+
+namespace {
+
+// Shadow rays by the share of the fragment's light that a patch can bring: many weak patches add
+// up smoothly with one each, a strong one shows the edges of single rays' shadows.
+std::size_t ray_count(float share, std::size_t most) {
+    constexpr float kStrong = 0.01F;
+    constexpr float kStrongest = 0.05F;
+    return share < kStrong ? 1 : share < kStrongest ? std::min<std::size_t>(4, most) : most;
+}
+
+class RayShooter final : public PatchShooter {
+public:
+    RayShooter(const PatchTree& tree, const PatchLights& lights, const RayScene& rays)
+        : tree_(tree), lights_(lights), scene_(rays) {}
+
+    void light(NodeId source, std::span<Receiver> receivers) override;
+
+private:
+    // Irradiance without occluders for radiance 1; d: from the patch's centre to the receiver.
+    [[nodiscard]] float unoccluded(NodeId source, const Receiver& r, const vec3& d) const;
+    void add_rays(NodeId source, const Receiver& r, std::size_t index, float light,
+                  std::size_t count);
+
+    struct Share {
+        std::size_t receiver;
+        float light;  // of unoccluded(), that a ray brings if nothing blocks it
+    };
+
+    const PatchTree& tree_;
+    const PatchLights& lights_;
+    const RayScene& scene_;
+    // Of the patch at hand, one share for each ray.
+    std::vector<Share> shares_;
+    std::vector<ShadowRay> rays_;
+    std::vector<std::uint8_t> blocked_;
+};
+
+void RayShooter::light(NodeId source, std::span<Receiver> receivers) {
+    const PatchLight& s = lights_[source];
+    const float brightness = luminance(s.radiance);
+    if (brightness <= 0) return;
+    shares_.clear();
+    rays_.clear();
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+        const Receiver& r = receivers[i];
+        const vec3 d = r.position - s.center;
+        if (glm::dot(d, s.normal) < scene_.epsilon()) continue;
+        const float light = unoccluded(source, r, d);
+        if (light <= 0) continue;
+        add_rays(source, r, i, light,
+                 ray_count(light * brightness / r.expected, lights_.points(source).size()));
+    }
+    blocked_.resize(rays_.size());
+    scene_.occluded(rays_, blocked_);
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        if (!blocked_[i])
+            receivers[shares_[i].receiver].irradiance += shares_[i].light * s.radiance;
+    }
+}
+
+float RayShooter::unoccluded(NodeId source, const Receiver& r, const vec3& d) const {
+    const PatchLight& s = lights_[source];
+    const float d2 = glm::dot(d, d);
+    if (d2 > kFar * kFar * s.radius * s.radius) return transfer(r, s.normal, d, d2) * s.area;
+    const std::array<vec3, 4> corners = tree_.patch_corners(source);
+    const auto count = static_cast<std::size_t>(tree_.corner_count(source));
+    return kPi * std::max(0.0F, point_form_factor(r.position, r.shading, {corners.data(), count}));
+}
+
+// The light is shared out among the points by what each can bring, so that it has no noise where
+// nothing is in the way.
+void RayShooter::add_rays(NodeId source, const Receiver& r, std::size_t index, float light,
+                          std::size_t count) {
+    const std::span<const vec3> points = lights_.points(source);
+    const vec3 lift = lights_[source].normal * scene_.epsilon();
+    const vec3 origin = r.position + r.normal * scene_.epsilon();
+    const std::size_t first = shares_.size();
+    float sum = 0;
+    for (std::size_t i = 0; i < points.size() && shares_.size() < first + count; ++i) {
+        const vec3& point = points[(r.turn + i) % points.size()];
+        const vec3 d = r.position - point;
+        const float w = transfer(r, lights_[source].normal, d, glm::dot(d, d));
+        if (w <= 0) continue;  // below the horizon
+        sum += w;
+        shares_.push_back({index, w});
+        rays_.push_back({origin, point + lift});
+    }
+    for (std::size_t i = first; i < shares_.size(); ++i)
+        shares_[i].light *= light / sum;
+}
+
+}  // namespace
+
+std::unique_ptr<PatchShooter> make_ray_shooter(const PatchTree& tree, const PatchLights& lights,
+                                               const RayScene& rays) {
+    return std::make_unique<RayShooter>(tree, lights, rays);
+}
+
+}  // namespace antiradiance
