@@ -23,7 +23,7 @@ constexpr float kGBufferShare = 0.5F;
 constexpr ProgressSpan kIndirectSpan{kGBufferShare, 1};
 
 constexpr int kTileSize = 8;            // pixels along a side of what shares a list of sources
-constexpr float kCutThreshold = 0.02F;  // sr, projected, of a node at a tile
+constexpr float kCutThreshold = 0.04F;  // sr, projected, of a node at a tile
 
 // Indirect irradiance of every fragment, W/m2.
 using IndirectLight = std::vector<vec3> (*)(const DisplayInput&, const DisplayOptions&,
