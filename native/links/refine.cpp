@@ -298,8 +298,7 @@ private:
         }
         const float ff = patch_form_factor(s, r, minus);
         if (ff <= 0) return;
-        // The direction of light between patches matters to antiradiance alone.
-        if (!touching || !options_.antiradiance) {
+        if (!touching || !options_.spread_touching) {
             add(receiver, source, ff, minus, bins_.bin(d), out);
             return;
         }

@@ -97,15 +97,19 @@ void check_memory(const Scene& scene, const std::vector<Surface>& surfaces, floa
                      " of memory; " + gibibytes(available) + " are free: raise Max Patch Size");
 }
 
+// Whether antiradiance is solved for, or shot in the picture.
+bool needs_directions(const Options& options) {
+    const DisplayOptions display = options.resolved_display();
+    return options.visibility == Visibility::kImplicit ||
+           (display.mode == DisplayMode::kFinalShooting &&
+            display.shooting_visibility == ShootingVisibility::kAntiradiance);
+}
+
 // Directions that links are sorted by. Between patches EXPLICIT asks for none, and with the fewest
 // bins it needs less memory and time for the same light; clusters send into each bin its own, and
 // final shooting without rays sends antiradiance on by bins.
 int link_bins(const Options& options, bool cluster_links) {
-    const DisplayOptions display = options.resolved_display();
-    const bool shot = display.mode == DisplayMode::kFinalShooting &&
-                      display.shooting_visibility == ShootingVisibility::kAntiradiance;
-    const bool directed = options.visibility == Visibility::kImplicit || cluster_links || shot;
-    return directed ? options.direction_bins : kFewestBins;
+    return cluster_links || needs_directions(options) ? options.direction_bins : kFewestBins;
 }
 
 RefineOptions refine_options(const Options& options, float patch_size, std::size_t surfaces) {
@@ -114,6 +118,7 @@ RefineOptions refine_options(const Options& options, float patch_size, std::size
     refine.least_edge = kLeastEdge * patch_size;
     if (options.direct_light == DirectLightMode::kImplicit) refine.emitter_share = kEmitterShare;
     refine.antiradiance = options.visibility == Visibility::kImplicit;
+    refine.spread_touching = needs_directions(options);
     refine.cluster_links =
         options.visibility == Visibility::kExplicit && surfaces > kClusterSurfaces;
     // As fine as direction_bins asks for, whatever the links are sorted by.
