@@ -60,9 +60,10 @@ std::vector<vec3> total_irradiance(const DisplayInput& input) {
 
 std::vector<vec3> shoot_by_rays(const DisplayInput& input, const PatchLights& lights,
                                 const ShootingInput& shooting, Progress& progress) {
+    const std::vector<Moments> clusters = pull_moments(input.tree, input.radiance);
     return shoot(
-        shooting, [&] { return make_ray_shooter(input.tree, lights, input.rays); }, progress,
-        kIndirectSpan);
+        shooting, [&] { return make_ray_shooter(input.tree, lights, clusters, input.rays); },
+        progress, kIndirectSpan);
 }
 
 std::vector<vec3> shoot_by_antiradiance(const DisplayInput& input, const PatchLights& lights,

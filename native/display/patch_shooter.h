@@ -12,6 +12,7 @@
 #include "hierarchy/patch_tree.h"
 #include "scene/ray_scene.h"
 #include "solve/antiradiance_table.h"
+#include "solve/moments.h"
 
 namespace antiradiance {
 
@@ -39,6 +40,13 @@ inline float transfer(const Receiver& r, const vec3& patch_normal, const vec3& d
     return std::abs(glm::dot(d, patch_normal)) * cos_r / (d2 * d2);
 }
 
+// cos / d^2 at a receiver of a light without extent, 1/m2.
+inline float transfer_from_point(const Receiver& r, const vec3& d, float d2) {
+    const float cos_r = -glm::dot(d, r.shading);
+    if (cos_r <= 0 || glm::dot(d, r.normal) >= 0) return 0;
+    return cos_r / (d2 * std::sqrt(d2));
+}
+
 // For one thread.
 class PatchShooter {
 public:
@@ -53,9 +61,10 @@ public:
     const PatchTree& tree, const PatchLights& lights, const AntiradianceTable& antiradiance,
     const BinWeights& bins, float epsilon);
 
-// Radiance alone, where a shadow ray says that it arrives.
+// Radiance alone, where a shadow ray says that it arrives. clusters: #nodes, pull_moments().
 [[nodiscard]] std::unique_ptr<PatchShooter> make_ray_shooter(const PatchTree& tree,
                                                              const PatchLights& lights,
+                                                             std::span<const Moments> clusters,
                                                              const RayScene& rays);
 
 }  // namespace antiradiance

@@ -31,8 +31,13 @@ public:
         const std::span<const vec3> blocked = antiradiance_.of(source);
         for (Receiver& r : receivers) {
             const vec3 d = r.position - s.center;
-            const float height = glm::dot(d, s.normal);
             const float d2 = glm::dot(d, d);
+            if (s.is_cluster()) {
+                const float w = transfer_from_point(r, d, d2);
+                if (w > 0) r.irradiance -= w * seen(blocked, d);
+                continue;
+            }
+            const float height = glm::dot(d, s.normal);
             const float r2 = s.radius * s.radius;
             if (r.surface == surface || in_one_plane(r, s, height)) continue;
             if (d2 > kFar * kFar * r2) {
@@ -70,12 +75,12 @@ private:
                 kPi * std::abs(point_form_factor(r.position, r.shading, {corners.data(), count}));
             if (in_front) return exact * s.radiance;
         }
-        std::span<const vec3> points = lights_.points(source);
+        std::span<const LightPoint> points = lights_.points(source);
         if (!close) points = points.first(std::min<std::size_t>(points.size(), kMiddleSamples));
         float sum = 0;
         vec3 light(0);
-        for (const vec3& point : points) {
-            const vec3 d = r.position - point;
+        for (const LightPoint& point : points) {
+            const vec3 d = r.position - point.position;
             const float w = transfer(r, s.normal, d, glm::dot(d, d));
             if (w <= 0) continue;
             sum += w;

@@ -20,90 +20,94 @@ std::size_t ray_count(float share, std::size_t most) {
 
 class RayShooter final : public PatchShooter {
 public:
-    RayShooter(const PatchTree& tree, const PatchLights& lights, const RayScene& rays)
-        : tree_(tree), lights_(lights), scene_(rays) {}
+    RayShooter(const PatchTree& tree, const PatchLights& lights, std::span<const Moments> clusters,
+               const RayScene& rays)
+        : tree_(tree), lights_(lights), clusters_(clusters), scene_(rays) {}
 
     void light(NodeId source, std::span<Receiver> receivers) override;
 
 private:
-    // Irradiance without occluders for radiance 1; d: from the patch's centre to the receiver.
-    [[nodiscard]] float unoccluded(NodeId source, const Receiver& r, const vec3& d) const;
-    void add_rays(NodeId source, const Receiver& r, std::size_t index, float light,
-                  std::size_t count);
+    // W/m2 without occluders; d: from the light's centre to the receiver.
+    [[nodiscard]] vec3 unoccluded(NodeId source, const Receiver& r, const vec3& d) const;
+    void add_rays(NodeId source, const Receiver& r, std::size_t index, const vec3& light);
 
+    // What a ray brings if nothing blocks it.
     struct Share {
         std::size_t receiver;
-        float light;  // of unoccluded(), that a ray brings if nothing blocks it
+        float weight;
+        vec3 light;  // W/m2
     };
 
     const PatchTree& tree_;
     const PatchLights& lights_;
+    std::span<const Moments> clusters_;
     const RayScene& scene_;
-    // Of the patch at hand, one share for each ray.
+    // Of the light at hand, one share for each ray.
     std::vector<Share> shares_;
     std::vector<ShadowRay> rays_;
     std::vector<std::uint8_t> blocked_;
 };
 
 void RayShooter::light(NodeId source, std::span<Receiver> receivers) {
-    const PatchLight& s = lights_[source];
-    const float brightness = luminance(s.radiance);
-    if (brightness <= 0) return;
     shares_.clear();
     rays_.clear();
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         const Receiver& r = receivers[i];
-        const vec3 d = r.position - s.center;
-        if (glm::dot(d, s.normal) < scene_.epsilon()) continue;
-        const float light = unoccluded(source, r, d);
-        if (light <= 0) continue;
-        add_rays(source, r, i, light,
-                 ray_count(light * brightness / r.expected, lights_.points(source).size()));
+        const vec3 light = unoccluded(source, r, r.position - lights_[source].center);
+        if (max_component(light) > 0) add_rays(source, r, i, light);
     }
     blocked_.resize(rays_.size());
     scene_.occluded(rays_, blocked_);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        if (!blocked_[i])
-            receivers[shares_[i].receiver].irradiance += shares_[i].light * s.radiance;
+        if (!blocked_[i]) receivers[shares_[i].receiver].irradiance += shares_[i].light;
     }
 }
 
-float RayShooter::unoccluded(NodeId source, const Receiver& r, const vec3& d) const {
+vec3 RayShooter::unoccluded(NodeId source, const Receiver& r, const vec3& d) const {
     const PatchLight& s = lights_[source];
     const float d2 = glm::dot(d, d);
-    if (d2 > kFar * kFar * s.radius * s.radius) return transfer(r, s.normal, d, d2) * s.area;
+    if (s.is_cluster()) {
+        const float w = transfer_from_point(r, d, d2);
+        if (w <= 0) return vec3(0);
+        return w * clusters_[static_cast<std::size_t>(source)].clamped_cosine(d / std::sqrt(d2));
+    }
+    if (glm::dot(d, s.normal) < scene_.epsilon()) return vec3(0);
+    if (d2 > kFar * kFar * s.radius * s.radius)
+        return transfer(r, s.normal, d, d2) * s.area * s.radiance;
     const std::array<vec3, 4> corners = tree_.patch_corners(source);
     const auto count = static_cast<std::size_t>(tree_.corner_count(source));
-    return kPi * std::max(0.0F, point_form_factor(r.position, r.shading, {corners.data(), count}));
+    return kPi * std::max(0.0F, point_form_factor(r.position, r.shading, {corners.data(), count})) *
+           s.radiance;
 }
 
 // The light is shared out among the points by what each can bring, so that it has no noise where
 // nothing is in the way.
-void RayShooter::add_rays(NodeId source, const Receiver& r, std::size_t index, float light,
-                          std::size_t count) {
-    const std::span<const vec3> points = lights_.points(source);
-    const vec3 lift = lights_[source].normal * scene_.epsilon();
+void RayShooter::add_rays(NodeId source, const Receiver& r, std::size_t index, const vec3& light) {
+    const std::span<const LightPoint> points = lights_.points(source);
+    const std::size_t count = ray_count(luminance(light) / r.expected, points.size());
     const vec3 origin = r.position + r.normal * scene_.epsilon();
     const std::size_t first = shares_.size();
     float sum = 0;
     for (std::size_t i = 0; i < points.size() && shares_.size() < first + count; ++i) {
-        const vec3& point = points[(r.turn + i) % points.size()];
-        const vec3 d = r.position - point;
-        const float w = transfer(r, lights_[source].normal, d, glm::dot(d, d));
+        const LightPoint& point = points[(r.turn + i) % points.size()];
+        const vec3 d = r.position - point.position;
+        if (glm::dot(d, point.normal) <= 0) continue;  // its back
+        const float w = transfer(r, point.normal, d, glm::dot(d, d));
         if (w <= 0) continue;  // below the horizon
         sum += w;
-        shares_.push_back({index, w});
-        rays_.push_back({origin, point + lift});
+        shares_.push_back({index, w, light});
+        rays_.push_back({origin, point.position + point.normal * scene_.epsilon()});
     }
     for (std::size_t i = first; i < shares_.size(); ++i)
-        shares_[i].light *= light / sum;
+        shares_[i].light *= shares_[i].weight / sum;
 }
 
 }  // namespace
 
 std::unique_ptr<PatchShooter> make_ray_shooter(const PatchTree& tree, const PatchLights& lights,
+                                               std::span<const Moments> clusters,
                                                const RayScene& rays) {
-    return std::make_unique<RayShooter>(tree, lights, rays);
+    return std::make_unique<RayShooter>(tree, lights, clusters, rays);
 }
 
 }  // namespace antiradiance

@@ -23,7 +23,7 @@ public:
             const NodeId next = tree_.subtree_end[static_cast<std::size_t>(n)];
             if (below_horizon(n, group)) {
                 n = next;
-            } else if (!tree_.is_cluster(n) && (tree_.is_leaf(n) || is_small(n, group))) {
+            } else if (tree_.is_leaf(n) || is_small(n, group)) {
                 out.push_back(n);
                 n = next;
             } else {
@@ -58,6 +58,8 @@ private:
         const vec3 d = group.center - tree_.center[n];
         const float distance = glm::length(d) - group.radius;
         if (distance <= kNear * tree_.radius[n]) return false;
+        if (tree_.is_cluster(node))
+            return kPi * tree_.radius[n] * tree_.radius[n] < threshold_ * distance * distance;
         const float height = std::abs(glm::dot(d, tree_.normal[n])) + group.radius;
         const float cosine = std::min(1.0F, height / distance);
         return tree_.area[n] * cosine < threshold_ * distance * distance;

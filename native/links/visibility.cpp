@@ -50,13 +50,15 @@ private:
 
 }  // namespace
 
-SurfaceSampler::SurfaceSampler(const PatchTree& tree) : tree_(tree) {
+SurfaceSampler::SurfaceSampler(const PatchTree& tree, std::span<const float> weight)
+    : tree_(tree) {
     first_leaf_.resize(tree.size() + 1);
     area_.push_back(0);
     for (std::size_t n = 0; n < tree.size(); ++n) {
         first_leaf_[n] = static_cast<std::int32_t>(area_.size() - 1);
-        if (tree.is_leaf(static_cast<NodeId>(n)))
-            area_.push_back(area_.back() + static_cast<double>(tree.area[n]) * tree.exposed[n]);
+        if (!tree.is_leaf(static_cast<NodeId>(n))) continue;
+        const double exposed = static_cast<double>(tree.area[n]) * tree.exposed[n];
+        area_.push_back(area_.back() + exposed * (weight.empty() ? 1 : weight[n]));
     }
     first_leaf_[tree.size()] = static_cast<std::int32_t>(area_.size() - 1);
 }

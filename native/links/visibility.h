@@ -14,13 +14,14 @@ namespace antiradiance {
 // Points on the lit, exposed surface below a node, uniform by area.
 class SurfaceSampler {
 public:
-    explicit SurfaceSampler(const PatchTree& tree);
+    // weight: #nodes, read at leaves; below clusters, density is by area x weight. Empty: 1.
+    explicit SurfaceSampler(const PatchTree& tree, std::span<const float> weight = {});
 
     struct Sample {
         vec3 point;
         vec3 normal;
     };
-    // u: unit square; the whole square covers the node's exposed area once.
+    // u: unit square; the whole square covers the node's exposed area once, as weighted.
     [[nodiscard]] Sample sample(NodeId node, const vec2& u) const;
 
 private:
@@ -28,7 +29,7 @@ private:
 
     const PatchTree& tree_;
     std::vector<std::int32_t> first_leaf_;  // #nodes + 1: leaves before this node in preorder
-    std::vector<double> area_;              // #leaves + 1: exposed area of all leaves before
+    std::vector<double> area_;              // #leaves + 1: exposed, weighted area of all before
 };
 
 // Multiplies the form factors of the pairs' + links by the share of `rays_per_pair` segments

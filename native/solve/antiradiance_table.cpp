@@ -14,8 +14,14 @@ constexpr int kSweeps = 3;
 // One bin's antiradiance of all nodes from the Phi of its segments.
 class BinPush {
 public:
-    BinPush(const PatchTree& tree, const LinkSet& links, const vec3& most)
-        : tree_(tree), links_(links), most_(most), value_(tree.size()), area_(tree.size()) {}
+    BinPush(const PatchTree& tree, const LinkSet& links, std::span<const vec3> radiance,
+            const vec3& most)
+        : tree_(tree),
+          links_(links),
+          radiance_(radiance),
+          most_(most),
+          value_(tree.size()),
+          area_(tree.size()) {}
 
     // phi: #segments. Writes value(n) into out[n * stride].
     void run(int bin, std::span<const vec3> phi, vec3* out, std::size_t stride) {
@@ -39,6 +45,7 @@ public:
             }
         }
         average_leaves();
+        sum_clusters(axis);
         for (std::size_t n = 0; n < tree_.size(); ++n)
             out[n * stride] = value_[n];
     }
@@ -69,8 +76,23 @@ private:
         }
     }
 
+    // Clusters, which average_leaves() left at 0, become the sum over their surfaces.
+    void sum_clusters(const vec3& axis) {
+        for (const NodeId node : tree_.surface_node) {
+            const auto n = static_cast<std::size_t>(node);
+            const float facing = tree_.area[n] * glm::dot(axis, tree_.normal[n]);
+            value_[static_cast<std::size_t>(tree_.parent[n])] -=
+                facing > 0 ? facing * radiance_[n] : facing * value_[n];
+        }
+        for (std::size_t n = tree_.size(); n-- > 1;) {
+            if (tree_.is_cluster(static_cast<NodeId>(n)))
+                value_[static_cast<std::size_t>(tree_.parent[n])] += value_[n];
+        }
+    }
+
     const PatchTree& tree_;
     const LinkSet& links_;
+    std::span<const vec3> radiance_;
     vec3 most_;
     std::vector<vec3> value_;
     std::vector<float> area_;
@@ -94,7 +116,7 @@ AntiradianceTable antiradiance_table(const PatchTree& tree, const LinkSet& links
     table.values.resize(tree.size() * bins);
     constexpr std::size_t kBlock = 8;  // bins that share one BinPush
     parallel_for_blocks(bins, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-        BinPush push(tree, links, most);
+        BinPush push(tree, links, radiance, most);
         for (std::size_t b = begin; b < end; ++b) {
             progress.check();
             push.run(static_cast<int>(b), phi, table.values.data() + b, bins);

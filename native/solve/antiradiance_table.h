@@ -14,7 +14,8 @@ namespace antiradiance {
 // travels along a bin. What a picture shoots behind each patch light.
 struct AntiradianceTable {
     int bins = 0;
-    // W/(m2 sr), never negative; inner patches: area average of their leaves; clusters: 0
+    // W/(m2 sr), never negative; inner patches: area average of their leaves.
+    // Clusters: W/sr, the intensity that their patches block less what they send.
     std::vector<vec3> values;  // #nodes x #bins
 
     [[nodiscard]] std::span<const vec3> of(NodeId n) const {

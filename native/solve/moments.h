@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
-#include "base/types.h"
+#include "hierarchy/patch_tree.h"
 
 namespace antiradiance {
 
@@ -50,6 +52,12 @@ private:
         return {v.x, v.y, v.z, v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.x * v.z, v.y * v.z};
     }
 };
+
+// What clusters send: the sum over their surfaces of area x radiance about the normal, so that
+// clamped_cosine(d) is the radiant intensity towards d, W/sr. Lamps are left out: they link by
+// themselves. radiance: #nodes, W/(m2 sr).                                // #nodes, 0 at patches
+[[nodiscard]] std::vector<Moments> pull_moments(const PatchTree& tree,
+                                                std::span<const vec3> radiance);
 
 // Normals that differ less than this (cosine) count as a narrow cone.
 inline constexpr float kNarrowCone = 0.9F;

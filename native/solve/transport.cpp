@@ -94,7 +94,7 @@ void Transport::gather(std::span<const vec3> radiance, Sweep sweep, float dampin
             most_antiradiance_ =
                 radiance_[n] > most_antiradiance_ ? radiance_[n] : most_antiradiance_;
     }
-    if (clusters_send_) pull_moments(radiance);
+    if (clusters_send_) sent_ = pull_moments(tree_, radiance);
     tbb::enumerable_thread_specific<Scratch> scratch;
     parallel_for(static_cast<std::size_t>(links_.bins.count()), progress, [&](std::size_t bin) {
         Scratch& mine = scratch.local();
@@ -177,20 +177,6 @@ void Transport::load_antiradiance(NodeId node, Scratch& scratch) const {
     for (NodeId up = own.parent; up != kNone; up = branches_[static_cast<std::size_t>(up)].parent)
         a += scratch.passed[static_cast<std::size_t>(up)];
     scratch.sent[tree_.size() + n] = clamp(a, most_antiradiance_);
-}
-
-void Transport::pull_moments(std::span<const vec3> radiance) {
-    sent_.assign(tree_.size(), Moments{});
-    for (std::size_t s = 0; s < tree_.surfaces.size(); ++s) {
-        if (tree_.surfaces[s].lamp != kNone) continue;  // lamps link by themselves
-        const auto n = static_cast<std::size_t>(tree_.surface_node[s]);
-        sent_[static_cast<std::size_t>(tree_.parent[n])].add(tree_.normal[n],
-                                                             tree_.area[n] * radiance[n]);
-    }
-    for (std::size_t n = tree_.size(); n-- > 1;) {
-        if (tree_.is_cluster(static_cast<NodeId>(n)))
-            sent_[static_cast<std::size_t>(tree_.parent[n])] += sent_[n];
-    }
 }
 
 // What arrived at clusters, down to the surfaces below.

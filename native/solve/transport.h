@@ -60,7 +60,6 @@ private:
     void gather_bin(int bin, Sweep sweep, float damping, Scratch& scratch);
     void load_clusters(int bin, Scratch& scratch) const;
     void load_antiradiance(NodeId node, Scratch& scratch) const;
-    void pull_moments(std::span<const vec3> radiance);
     void push_moments(std::vector<Moments>& received, std::vector<vec3>& irradiance) const;
 
     const PatchTree& tree_;

@@ -43,11 +43,12 @@ protected:
                                         ? cut_sources(tree_, groups, 0.02F, progress)
                                         : all_sources(tree_, level, groups.groups.size());
         const PatchLights lights(tree_, radiance_, 8);
+        const std::vector<Moments> clusters = pull_moments(tree_, radiance_);
         const RayScene rays(scene_);
         return shoot({tree_, buffer, groups, sources, radiance_, interleave},
                      [&] {
                          return visibility_ == ShootingVisibility::kRays
-                                    ? make_ray_shooter(tree_, lights, rays)
+                                    ? make_ray_shooter(tree_, lights, clusters, rays)
                                     : make_antiradiance_shooter(tree_, lights, table_, weights_,
                                                                 1e-5F);
                      },
@@ -212,7 +213,6 @@ TEST_F(Shooting, a_cut_holds_every_leaf_once_that_is_not_below_the_horizon) {
     for (std::size_t g = 0; g < groups.groups.size(); ++g) {
         std::vector<int> covered(tree_.size(), 0);
         for (const NodeId n : lists.of(g)) {
-            ASSERT_FALSE(tree_.is_cluster(n));
             coarse += tree_.is_leaf(n) ? 0 : 1;
             for (NodeId m = n; m < tree_.subtree_end[static_cast<std::size_t>(n)]; ++m)
                 ++covered[static_cast<std::size_t>(m)];
