@@ -121,12 +121,14 @@ class RENDER_PT_antiradiance_report(OptionsPanel, bpy.types.Panel):
 
 def draw_figures(layout, report):
     solve, times, links = report["solve"], report["timings_s"], report["links"]
+    display = report["display"]
     state = "converged" if solve["converged"] else "not converged"
     rows = (
         ("Patches", f"{report['patches']:,} ({report['leaves']:,} leaves)"),
         ("Links", f"{links['total']:,}"),
         ("Iterations", f"{solve['iterations']}, {state}"),
         ("Solver", solve["renderer"] or solve["backend"]),
+        ("Display", display["renderer"] or display["backend"]),
         ("Time", f"{times['total']:.1f} s (solve {times['solve']:.1f} s)"),
         ("Peak Memory", f"{report['peak_memory_bytes'] / 2**20:,.0f} MiB"),
     )

@@ -11,7 +11,6 @@
 #include "display/patch_lights.h"
 #include "display/shooting.h"
 #include "display/source_lists.h"
-#include "display/splatting.h"
 #include "solve/antiradiance_table.h"
 
 namespace antiradiance {
@@ -27,11 +26,11 @@ constexpr float kCutThreshold = 0.04F;  // sr, projected, of a node at a tile
 
 // Indirect irradiance of every fragment, W/m2.
 using IndirectLight = std::vector<vec3> (*)(const DisplayInput&, const DisplayOptions&,
-                                            const GBuffer&, Progress&);
+                                            const GBuffer&, DisplayBackend&, Progress&);
 
 // "No interpolation" in the paper's Fig. 9.
 std::vector<vec3> patch_irradiance(const DisplayInput& input, const DisplayOptions&,
-                                   const GBuffer& buffer, Progress&) {
+                                   const GBuffer& buffer, DisplayBackend&, Progress&) {
     std::vector<vec3> irradiance(buffer.fragments.size(), vec3(0));
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
         const NodeId leaf = buffer.fragments[i].leaf;
@@ -45,9 +44,12 @@ vec3 eye_of(const Camera& camera) {
 }
 
 std::vector<vec3> splatted_irradiance(const DisplayInput& input, const DisplayOptions&,
-                                      const GBuffer& buffer, Progress& progress) {
+                                      const GBuffer& buffer, DisplayBackend& backend,
+                                      Progress& progress) {
     const FragmentGroups tiles = tile_groups(buffer, eye_of(input.scene.camera), kTileSize);
-    return splat(input.tree, input.irradiance, buffer, tiles, progress, kIndirectSpan);
+    const SourceLists disks = find_disks(input.tree, tiles, progress);
+    return backend.splat({input.tree, input.irradiance, buffer, tiles, disks}, progress,
+                         kIndirectSpan);
 }
 
 // Direct and indirect light of the leaves, W/m2.
@@ -68,21 +70,17 @@ std::vector<vec3> shoot_by_rays(const DisplayInput& input, const PatchLights& li
 
 std::vector<vec3> shoot_by_antiradiance(const DisplayInput& input, const PatchLights& lights,
                                         int bin_map_size, const ShootingInput& shooting,
-                                        Progress& progress) {
+                                        DisplayBackend& backend, Progress& progress) {
     const AntiradianceTable table =
         antiradiance_table(input.tree, input.links, input.radiance, progress);
     const BinWeights bins(input.links.bins, bin_map_size);
-    return shoot(
-        shooting,
-        [&] {
-            return make_antiradiance_shooter(input.tree, lights, table, bins,
-                                             2 * input.rays.epsilon());
-        },
-        progress, kIndirectSpan);
+    return backend.shoot({shooting, lights, table, bins, 2 * input.rays.epsilon()}, progress,
+                         kIndirectSpan);
 }
 
 std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
-                                  const GBuffer& buffer, Progress& progress) {
+                                  const GBuffer& buffer, DisplayBackend& backend,
+                                  Progress& progress) {
     const FragmentGroups groups = input.links_removed
                                       ? receiver_groups(buffer)
                                       : tile_groups(buffer, eye_of(input.scene.camera),
@@ -104,7 +102,8 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
     const std::vector<vec3> irradiance =
         options.shooting_visibility == ShootingVisibility::kRays
             ? shoot_by_rays(input, lights, shooting, progress)
-            : shoot_by_antiradiance(input, lights, options.bin_map_size, shooting, progress);
+            : shoot_by_antiradiance(input, lights, options.bin_map_size, shooting, backend,
+                                    progress);
     return interleave_blur(buffer, irradiance, options.interleave, progress);
 }
 
@@ -127,14 +126,21 @@ IndirectLight indirect_light_of(DisplayMode mode) {
 
 }  // namespace
 
-Picture make_picture(const DisplayInput& input, const DisplayOptions& options, Progress& progress) {
+bool uses_backend(const DisplayOptions& options) {
+    return options.mode == DisplayMode::kSplatting ||
+           (options.mode == DisplayMode::kFinalShooting &&
+            options.shooting_visibility == ShootingVisibility::kAntiradiance);
+}
+
+Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
+                     DisplayBackend& backend, Progress& progress) {
     GBuffer buffer =
         make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct,
                       input.film_transparent, input.samples_per_axis},
                      progress, {0, kGBufferShare});
     std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));
     if (input.tree.size() > 0)
-        indirect = indirect_light_of(options.mode)(input, options, buffer, progress);
+        indirect = indirect_light_of(options.mode)(input, options, buffer, backend, progress);
     Picture picture;
     picture.width = buffer.width;
     picture.height = buffer.height;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "display/display_backend.h"
 #include "display/display_options.h"
 #include "hierarchy/patch_tree.h"
 #include "links/link_set.h"
@@ -37,7 +38,10 @@ struct DisplayInput {
     int samples_per_axis = 4;           // anti-aliasing, n x n a pixel
 };
 
+// Whether there is work for a back end: flat patches have none, and shadow rays stay on the CPU.
+[[nodiscard]] bool uses_backend(const DisplayOptions& options);
+
 [[nodiscard]] Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
-                                   Progress& progress);
+                                   DisplayBackend& backend, Progress& progress);
 
 }  // namespace antiradiance

@@ -27,12 +27,6 @@ struct Receiver {
     vec3 irradiance{0};  // W/m2, the result
 };
 
-// Distances in radii of a patch: beyond kFar its centre stands for it, within kClose its form
-// factor is exact, between them a few of its points do.
-inline constexpr float kFar = 8;
-inline constexpr float kClose = 4;
-inline constexpr int kMiddleSamples = 4;
-
 // cos cos / d^2 between a point of a patch and a receiver, 1/m2; d: from the patch to the receiver.
 inline float transfer(const Receiver& r, const vec3& patch_normal, const vec3& d, float d2) {
     const float cos_r = -glm::dot(d, r.shading);

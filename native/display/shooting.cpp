@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "display/interleave.h"
 
 namespace antiradiance {
 
@@ -12,12 +13,11 @@ namespace {
 class Subsets {
 public:
     Subsets(const ShootingInput& input, const FragmentGroup& group)
-        : n_(static_cast<std::uint32_t>(input.interleave)), begin_(n_ * n_ + 1, 0) {
-        const auto width = static_cast<std::uint32_t>(input.buffer.width);
+        : begin_(static_cast<std::size_t>(input.interleave * input.interleave) + 1, 0) {
         std::vector<std::uint32_t> subset;
         for (std::uint32_t i = group.begin; i < group.end; ++i) {
-            const std::uint32_t pixel = input.buffer.fragments[input.groups.order[i]].pixel;
-            subset.push_back(pixel / width % n_ * n_ + pixel % width % n_);
+            const Fragment& f = input.buffer.fragments[input.groups.order[i]];
+            subset.push_back(interleave_subset(f.pixel, input.buffer.width, input.interleave));
             ++begin_[subset.back() + 1];
         }
         for (std::size_t k = 0; k + 1 < begin_.size(); ++k)
@@ -33,7 +33,6 @@ public:
     std::vector<std::uint32_t> fragments;  // into GBuffer::fragments
 
 private:
-    std::uint32_t n_;
     std::vector<std::uint32_t> begin_;
 };
 
@@ -80,6 +79,16 @@ std::vector<vec3> shoot(const ShootingInput& input, const MakeShooter& make_shoo
         input.groups.groups.size(), progress,
         [&](std::size_t g) { shoot_group(input, g, *make_shooter(), progress, irradiance); }, span);
     return irradiance;
+}
+
+std::vector<vec3> shoot(const AntiradianceShooting& input, Progress& progress, ProgressSpan span) {
+    return shoot(
+        input.shooting,
+        [&] {
+            return make_antiradiance_shooter(input.shooting.tree, input.lights, input.antiradiance,
+                                             input.bins, input.epsilon);
+        },
+        progress, span);
 }
 
 }  // namespace antiradiance

@@ -32,4 +32,15 @@ using MakeShooter = std::function<std::unique_ptr<PatchShooter>()>;  // called f
 [[nodiscard]] std::vector<vec3> shoot(const ShootingInput& input, const MakeShooter& make_shooter,
                                       Progress& progress, ProgressSpan span);
 
+// With antiradiance in place of rays, on any back end (display_backend.h).
+struct AntiradianceShooting {
+    const ShootingInput& shooting;
+    const PatchLights& lights;
+    const AntiradianceTable& antiradiance;
+    const BinWeights& bins;
+    float epsilon;  // m, heights above a plane that rounding explains
+};
+[[nodiscard]] std::vector<vec3> shoot(const AntiradianceShooting& input, Progress& progress,
+                                      ProgressSpan span);
+
 }  // namespace antiradiance

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "display/display_layout_gl.h"
 #include "display/patch_shooter.h"
 #include "links/form_factor.h"
 
@@ -9,10 +10,11 @@ namespace antiradiance {
 
 namespace {
 
-// Height above a light's plane, in radii of the light, that counts as in it for fragments that face
-// the same way.
-constexpr float kFlatHeight = 0.03F;
-constexpr float kFlatCosine = 0.95F;
+using glsl::kClose;
+using glsl::kFar;
+using glsl::kFlatCosine;
+using glsl::kFlatHeight;
+using glsl::kMiddleSamples;
 
 class AntiradianceShooter final : public PatchShooter {
 public:

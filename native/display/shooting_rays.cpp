@@ -3,12 +3,15 @@
 #include <array>
 #include <vector>
 
+#include "display/display_layout_gl.h"
 #include "display/patch_shooter.h"
 #include "links/form_factor.h"
 
 namespace antiradiance {
 
 namespace {
+
+using glsl::kFar;
 
 // Shadow rays by the share of the fragment's light that a patch can bring: many weak patches add
 // up smoothly with one each, a strong one shows the edges of single rays' shadows.

@@ -85,9 +85,10 @@ void append_level(const PatchTree& tree, NodeId from, ShootingLevel level,
     }
 }
 
-// Runs select(group, list) for all groups and joins the lists.
-template <typename Select>
-SourceLists collect(std::size_t group_count, Progress& progress, const Select& select) {
+}  // namespace
+
+SourceLists collect_lists(std::size_t group_count, Progress& progress,
+                          const std::function<void(std::size_t, std::vector<NodeId>&)>& select) {
     constexpr std::size_t kBlock = 16;
     std::vector<std::vector<NodeId>> blocks((group_count + kBlock - 1) / kBlock);
     SourceLists lists;
@@ -114,8 +115,6 @@ SourceLists collect(std::size_t group_count, Progress& progress, const Select& s
     return lists;
 }
 
-}  // namespace
-
 SourceLists all_sources(const PatchTree& tree, ShootingLevel level, std::size_t group_count) {
     SourceLists lists;
     append_level(tree, 0, level, lists.sources);
@@ -127,9 +126,9 @@ SourceLists all_sources(const PatchTree& tree, ShootingLevel level, std::size_t 
 SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups, float threshold,
                         Progress& progress) {
     const Cut cut(tree, threshold);
-    return collect(groups.groups.size(), progress, [&](std::size_t g, std::vector<NodeId>& list) {
-        cut.descend(0, groups.groups[g], list);
-    });
+    return collect_lists(
+        groups.groups.size(), progress,
+        [&](std::size_t g, std::vector<NodeId>& list) { cut.descend(0, groups.groups[g], list); });
 }
 
 SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GBuffer& buffer,
@@ -147,31 +146,33 @@ SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GB
         of_node[fill[static_cast<std::size_t>(links.segments[i].receiver)]++] = i;
 
     const Cut cut(tree, threshold);
-    return collect(groups.groups.size(), progress, [&](std::size_t g, std::vector<NodeId>& list) {
-        const FragmentGroup& group = groups.groups[g];
-        std::vector<NodeId> linked;
-        for (NodeId n = buffer.fragments[groups.order[group.begin]].leaf; n != kNone;
-             n = tree.parent[static_cast<std::size_t>(n)]) {
-            for (std::uint32_t i = begin[static_cast<std::size_t>(n)];
-                 i < begin[static_cast<std::size_t>(n) + 1]; ++i) {
-                const Segment& s = links.segments[of_node[i]];
-                for (std::uint32_t l = s.begin; l < s.end; ++l)
-                    linked.push_back(links.links[l].source);
-            }
-        }
-        // Once each: a source may be linked in several bins, and below another one.
-        std::sort(linked.begin(), linked.end());
-        NodeId covered = 0;  // all nodes before it are in the list
-        for (const NodeId source : linked) {
-            if (source < covered) continue;
-            covered = tree.subtree_end[static_cast<std::size_t>(source)];
-            if (level == ShootingLevel::kCut) {
-                cut.descend(source, group, list);
-            } else {
-                append_level(tree, source, level, list);
-            }
-        }
-    });
+    return collect_lists(groups.groups.size(), progress,
+                         [&](std::size_t g, std::vector<NodeId>& list) {
+                             const FragmentGroup& group = groups.groups[g];
+                             std::vector<NodeId> linked;
+                             for (NodeId n = buffer.fragments[groups.order[group.begin]].leaf;
+                                  n != kNone; n = tree.parent[static_cast<std::size_t>(n)]) {
+                                 for (std::uint32_t i = begin[static_cast<std::size_t>(n)];
+                                      i < begin[static_cast<std::size_t>(n) + 1]; ++i) {
+                                     const Segment& s = links.segments[of_node[i]];
+                                     for (std::uint32_t l = s.begin; l < s.end; ++l)
+                                         linked.push_back(links.links[l].source);
+                                 }
+                             }
+                             // Once each: a source may be linked in several bins, and below another
+                             // one.
+                             std::sort(linked.begin(), linked.end());
+                             NodeId covered = 0;  // all nodes before it are in the list
+                             for (const NodeId source : linked) {
+                                 if (source < covered) continue;
+                                 covered = tree.subtree_end[static_cast<std::size_t>(source)];
+                                 if (level == ShootingLevel::kCut) {
+                                     cut.descend(source, group, list);
+                                 } else {
+                                     append_level(tree, source, level, list);
+                                 }
+                             }
+                         });
 }
 
 }  // namespace antiradiance

@@ -2,6 +2,7 @@
 // Which patch lights light which fragments.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,13 +15,18 @@
 namespace antiradiance {
 
 struct SourceLists {
-    std::vector<NodeId> sources;            // patches
+    std::vector<NodeId> sources;            // patches, ascending in each list
     std::vector<std::uint32_t> begin, end;  // of each group's list, into `sources`; #groups
 
     [[nodiscard]] std::span<const NodeId> of(std::size_t group) const {
         return {sources.data() + begin[group], end[group] - begin[group]};
     }
 };
+
+// A list for each group: select(group, list) appends to it, on any thread.
+[[nodiscard]] SourceLists collect_lists(
+    std::size_t group_count, Progress& progress,
+    const std::function<void(std::size_t, std::vector<NodeId>&)>& select);
 
 // One list for all groups: every leaf, or every parent of leaves (and leaves that are a whole
 // surface), as in the paper's section 6.2.

@@ -5,83 +5,78 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "display/display_layout_gl.h"
 
 namespace antiradiance {
 
 namespace {
 
-constexpr float kFootprint = 2;       // radius of a disk, in radii of its leaf
-constexpr float kLeastCosine = 0.8F;  // between the normals of disk and fragment
-constexpr float kMostHeight = 0.25F;  // of a fragment above the disk, in radii of the disk
+using glsl::kFootprint;
+using glsl::kLeastDiskCosine;
+using glsl::kMostDiskHeight;
 
-class Splatter {
-public:
-    Splatter(const PatchTree& tree, std::span<const vec3> irradiance)
-        : tree_(tree), irradiance_(irradiance) {}
+float disk_weight(const PatchTree& tree, const Fragment& f, std::size_t n) {
+    const float cosine = glm::dot(f.normal, tree.normal[n]);
+    if (cosine <= kLeastDiskCosine) return 0;
+    const vec3 d = f.position - tree.center[n];
+    const float radius = kFootprint * tree.radius[n];
+    const float share = glm::dot(d, d) / (radius * radius);
+    if (share >= 1 || std::abs(glm::dot(d, tree.normal[n])) > kMostDiskHeight * radius) return 0;
+    return (1 - share) * (1 - share) * (cosine - kLeastDiskCosine) * tree.exposed[n];
+}
 
-    // Leaves whose disks can reach the group.
-    void find(const FragmentGroup& group, std::vector<NodeId>& leaves) const {
-        leaves.clear();
-        for (NodeId node = 0; node < static_cast<NodeId>(tree_.size());) {
-            const auto n = static_cast<std::size_t>(node);
-            // A node's sphere holds its leaves; a leaf's disk is wider than it by its own radius.
-            const float reach = kFootprint * tree_.radius[n] + group.radius;
-            const vec3 d = tree_.center[n] - group.center;
-            if (glm::dot(d, d) > reach * reach) {
-                node = tree_.subtree_end[n];
-                continue;
-            }
-            if (tree_.is_leaf(node) && !tree_.emits_only(node)) leaves.push_back(node);
-            ++node;
-        }
+vec3 splat_fragment(const SplattingInput& input, const Fragment& f,
+                    std::span<const NodeId> leaves) {
+    vec3 sum(0);
+    float weights = 0;
+    for (const NodeId leaf : leaves) {
+        const auto n = static_cast<std::size_t>(leaf);
+        const float w = disk_weight(input.tree, f, n);
+        sum += w * input.irradiance[n];
+        weights += w;
     }
-
-    [[nodiscard]] vec3 irradiance(const Fragment& f, std::span<const NodeId> leaves) const {
-        vec3 sum(0);
-        float weights = 0;
-        for (const NodeId leaf : leaves) {
-            const auto n = static_cast<std::size_t>(leaf);
-            const float w = weight(f, n);
-            sum += w * irradiance_[n];
-            weights += w;
-        }
-        if (weights > 0) return sum / weights;
-        return f.leaf == kNone ? vec3(0) : irradiance_[static_cast<std::size_t>(f.leaf)];
-    }
-
-private:
-    [[nodiscard]] float weight(const Fragment& f, std::size_t n) const {
-        const float cosine = glm::dot(f.normal, tree_.normal[n]);
-        if (cosine <= kLeastCosine) return 0;
-        const vec3 d = f.position - tree_.center[n];
-        const float radius = kFootprint * tree_.radius[n];
-        const float share = glm::dot(d, d) / (radius * radius);
-        if (share >= 1 || std::abs(glm::dot(d, tree_.normal[n])) > kMostHeight * radius) return 0;
-        return (1 - share) * (1 - share) * (cosine - kLeastCosine) * tree_.exposed[n];
-    }
-
-    const PatchTree& tree_;
-    std::span<const vec3> irradiance_;
-};
+    return splatted_mean(input, f, sum, weights);
+}
 
 }  // namespace
 
-std::vector<vec3> splat(const PatchTree& tree, std::span<const vec3> irradiance,
-                        const GBuffer& buffer, const FragmentGroups& groups, Progress& progress,
-                        ProgressSpan span) {
-    const Splatter splatter(tree, irradiance);
-    std::vector<vec3> result(buffer.fragments.size(), vec3(0));
+SourceLists find_disks(const PatchTree& tree, const FragmentGroups& groups, Progress& progress) {
+    const auto select = [&](std::size_t g, std::vector<NodeId>& leaves) {
+        const FragmentGroup& group = groups.groups[g];
+        for (NodeId node = 0; node < static_cast<NodeId>(tree.size());) {
+            const auto n = static_cast<std::size_t>(node);
+            // A node's sphere holds its leaves; a leaf's disk is wider than it by its own radius.
+            const float reach = kFootprint * tree.radius[n] + group.radius;
+            const vec3 d = tree.center[n] - group.center;
+            if (glm::dot(d, d) > reach * reach) {
+                node = tree.subtree_end[n];
+                continue;
+            }
+            if (tree.is_leaf(node) && !tree.emits_only(node)) leaves.push_back(node);
+            ++node;
+        }
+    };
+    return collect_lists(groups.groups.size(), progress, select);
+}
+
+vec3 splatted_mean(const SplattingInput& input, const Fragment& fragment, const vec3& weighted_sum,
+                   float weights) {
+    if (weights > 0) return weighted_sum / weights;
+    if (fragment.leaf == kNone) return vec3(0);
+    return input.irradiance[static_cast<std::size_t>(fragment.leaf)];
+}
+
+std::vector<vec3> splat(const SplattingInput& input, Progress& progress, ProgressSpan span) {
+    std::vector<vec3> result(input.buffer.fragments.size(), vec3(0));
     parallel_for_blocks(
-        groups.groups.size(), 16, progress,
+        input.groups.groups.size(), 16, progress,
         [&](std::size_t begin, std::size_t end) {
-            std::vector<NodeId> leaves;
             for (std::size_t g = begin; g < end; ++g) {
                 progress.check();
-                const FragmentGroup& group = groups.groups[g];
-                splatter.find(group, leaves);
+                const FragmentGroup& group = input.groups.groups[g];
                 for (std::uint32_t i = group.begin; i < group.end; ++i) {
-                    const std::uint32_t f = groups.order[i];
-                    result[f] = splatter.irradiance(buffer.fragments[f], leaves);
+                    const std::uint32_t f = input.groups.order[i];
+                    result[f] = splat_fragment(input, input.buffer.fragments[f], input.disks.of(g));
                 }
             }
         },

@@ -109,8 +109,8 @@ std::vector<OptionInfo> make_schema() {
          .access = access_to<&Options::iterations>()});
     schema.push_back(
         {.name = "solver",
-         .label = "Solver",
-         .tooltip = "Where the light transport is computed",
+         .label = "Device",
+         .tooltip = "Where the light transport, splatting and final shooting are computed",
          .type = OptionType::kEnum,
          .items = {{"AUTO", "Automatic", "OpenGL on a graphics card, else the processor"},
                    {"OPENGL", "OpenGL", "Compute shaders, on a graphics card or in software"},
@@ -240,6 +240,12 @@ void set_number(Options& options, const OptionInfo& option, const OptionValue& v
     }
 }
 
+auto find_option(std::string_view name) {
+    const auto schema = option_schema();
+    return std::find_if(schema.begin(), schema.end(),
+                        [&](const OptionInfo& o) { return o.name == name; });
+}
+
 }  // namespace
 
 DisplayOptions Options::resolved_display() const {
@@ -258,10 +264,14 @@ std::span<const OptionInfo> option_schema() {
     return schema;
 }
 
+std::string_view item_of(const Options& options, std::string_view name) {
+    const OptionInfo& option = *find_option(name);
+    return option.items[static_cast<std::size_t>(std::get<int>(option.access.get(options)))].id;
+}
+
 void set_option(Options& options, std::string_view name, const OptionValue& value) {
     const auto schema = option_schema();
-    const auto option = std::find_if(schema.begin(), schema.end(),
-                                     [&](const OptionInfo& o) { return o.name == name; });
+    const auto option = find_option(name);
     if (option == schema.end()) {
         throw SceneError("There is no option '" + std::string(name) + "'; the options are " +
                          list_of(schema, [](const OptionInfo& o) { return o.name; }));

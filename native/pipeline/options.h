@@ -72,6 +72,9 @@ struct OptionInfo {
 // In display order. Defaults are read from a default-constructed Options.
 std::span<const OptionInfo> option_schema();
 
+// The id of the item that an enum option is set to. `name` is in the schema.
+std::string_view item_of(const Options& options, std::string_view name);
+
 // Sets one option by name; enums by id. Throws SceneError that lists the valid names, ids or range.
 void set_option(Options& options, std::string_view name, const OptionValue& value);
 

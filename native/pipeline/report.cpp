@@ -21,6 +21,8 @@ std::string Report::to_json() const {
           {"iterations", solve.iterations},
           {"residual", solve.residual},
           {"converged", solve.converged}}},
+        {"display",
+         {{"mode", display.mode}, {"backend", display.backend}, {"renderer", display.renderer}}},
         {"timings_s",
          {{"sync", timings_s.sync},
           {"hierarchy", timings_s.hierarchy},

@@ -24,6 +24,11 @@ struct Report {
         bool converged = false;
     } solve;
     struct {
+        std::string mode;     // the option's item: PATCHES, SPLATTING or FINAL_SHOOTING
+        std::string backend;  // OpenGL or CPU; empty without a camera
+        std::string renderer;
+    } display;
+    struct {
         double sync = 0, hierarchy = 0, links = 0, visibility = 0, direct = 0, solve = 0,
                display = 0, total = 0;
     } timings_s;

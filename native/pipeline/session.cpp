@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "pipeline/choose_display.h"
 #include "pipeline/choose_solver.h"
 #include "pipeline/model.h"
 #include "pipeline/stopwatch.h"
@@ -65,7 +66,7 @@ bool has_light(const Scene& scene) {
 }
 
 Picture render_stages(Scene& scene, const Options& options, bool film_transparent,
-                      Progress& progress, Report& report) {
+                      ChosenDisplay& display, Progress& progress, Report& report) {
     progress.begin_stage("Checking the scene", 0, 0.02F);
     report.warnings = validate(scene);
     if (!has_light(scene)) {
@@ -91,10 +92,10 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
         solve.iterations = options.iterations;
         SolverRun run = solve_transport(options.solver, input.problem(model), solve, progress);
         Solution& solution = run.solution;
-        if (!run.warning.empty()) report.warnings.push_back(run.warning);
+        if (!run.device.warning.empty()) report.warnings.push_back(run.device.warning);
         report.solve = {solution.backend,
                         solution.renderer,
-                        run.reason,
+                        run.device.reason,
                         solution.iterations,
                         static_cast<double>(solution.residual),
                         solution.converged};
@@ -113,19 +114,24 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
 
     watch.lap();
     progress.begin_stage("Display", 0.75F, 1);
-    Picture picture;
+    DisplayRun run;
     if (scene.has_camera) {
-        picture = make_picture({scene, model.rays, model.tree, model.links, false, direct,
-                                leaf_direct, irradiance, radiance, film_transparent},
-                               options.resolved_display(), progress);
+        run = display.make_picture(options.solver,
+                                   {scene, model.rays, model.tree, model.links, false, direct,
+                                    leaf_direct, irradiance, radiance, film_transparent},
+                                   options.resolved_display(), progress);
+        if (!run.device.warning.empty()) report.warnings.push_back(run.device.warning);
     }
+    report.display = {std::string(item_of(options, "display")), run.backend, run.renderer};
     report.timings_s.display = watch.lap();
-    return picture;
+    return std::move(run.picture);
 }
 
 }  // namespace
 
-struct Session::Impl {};
+struct Session::Impl {
+    ChosenDisplay display;
+};
 
 Session::Session() : impl_(std::make_unique<Impl>()) {}
 Session::~Session() = default;
@@ -144,7 +150,8 @@ RenderResult Session::render(Scene scene, const Options& options, bool film_tran
         file.write(report);
     };
     try {
-        result.picture = render_stages(scene, options, film_transparent, progress, report);
+        result.picture =
+            render_stages(scene, options, film_transparent, impl_->display, progress, report);
     } catch (const std::exception& e) {
         finish(e.what());
         throw;

@@ -26,6 +26,7 @@ BENCHMARK(direct_light)->UseManualTime()->Unit(benchmark::kMillisecond);
 void display(benchmark::State& state, const DisplayOptions& options) {
     const Stages& room = stages(Visibility::kExplicit);
     const std::vector<vec3> light(room.model.tree.size(), vec3(1));
+    const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
     Meter meter(state);
     for (auto _ : state) {
         Progress progress;
@@ -33,7 +34,7 @@ void display(benchmark::State& state, const DisplayOptions& options) {
             benchmark::DoNotOptimize(
                 make_picture({room.scene, room.model.rays, room.model.tree, room.model.links, false,
                               *room.direct, light, light, light},
-                             options, progress));
+                             options, *backend, progress));
         });
     }
     const double pixels = static_cast<double>(room.scene.camera.width) * room.scene.camera.height;

@@ -258,6 +258,7 @@ REPORT = {
     "links": {"radiance": int, "antiradiance": int, "total": int, "bytes": int},
     "solve": {"backend": str, "renderer": str, "iterations": int, "residual": NUMBER,
               "converged": bool, "reason": str},
+    "display": {"mode": str, "backend": str, "renderer": str},
     "timings_s": dict.fromkeys(["sync", "hierarchy", "links", "visibility", "direct", "solve",
                                 "display", "total"], NUMBER),
     "peak_memory_bytes": int,

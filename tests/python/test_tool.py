@@ -17,6 +17,7 @@ REPORT_KEYS = {
     "leaves": None,
     "links": {"radiance", "antiradiance", "total"},
     "solve": {"backend", "renderer", "iterations", "residual", "converged"},
+    "display": {"mode", "backend", "renderer"},
     "timings_s": {"sync", "hierarchy", "links", "visibility", "direct", "solve", "display",
                   "total"},
     "peak_memory_bytes": None,

@@ -52,9 +52,10 @@ struct Stage {
                             progress, {0, 1});
     }
     Picture picture(bool transparent = false) {
+        const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
         return make_picture({scene, rays, tree, LinkSet{}, false, direct, irradiance, irradiance,
                              irradiance, transparent, 4},
-                            {.mode = DisplayMode::kPatches}, progress);
+                            {.mode = DisplayMode::kPatches}, *backend, progress);
     }
 };
 

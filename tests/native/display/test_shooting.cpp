@@ -318,13 +318,14 @@ TEST(Splatting, keeps_constants_and_smooths_steps) {
     const FragmentGroups tiles = tile_groups(buffer, vec3(0.5F, 0.5F, 3), 8);
     Progress progress;
     const std::vector<vec3> constant(tree.size(), vec3(3));
-    for (const vec3& e : splat(tree, constant, buffer, tiles, progress, {}))
+    const SourceLists disks = find_disks(tree, tiles, progress);
+    for (const vec3& e : splat({tree, constant, buffer, tiles, disks}, progress, {}))
         EXPECT_NEAR(e.x, 3, 1e-5F);
 
     std::vector<vec3> ramp(tree.size());
     for (std::size_t n = 0; n < tree.size(); ++n)
         ramp[n] = vec3(tree.center[n].x);
-    const std::vector<vec3> smooth = splat(tree, ramp, buffer, tiles, progress, {});
+    const std::vector<vec3> smooth = splat({tree, ramp, buffer, tiles, disks}, progress, {});
     for (int y = 8; y < 40; ++y) {
         for (int x = 9; x < 39; ++x) {
             const auto i = static_cast<std::size_t>(y * 48 + x);

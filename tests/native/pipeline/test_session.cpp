@@ -112,13 +112,15 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     options.visibility = Visibility::kImplicit;
     const RenderResult result = render(test::office(), options);
     const nlohmann::json json = file.read();
-    EXPECT_EQ(keys(json), std::set<std::string>({"patches", "leaves", "links", "solve", "timings_s",
-                                                 "peak_memory_bytes", "warnings", "error"}));
+    EXPECT_EQ(keys(json),
+              std::set<std::string>({"patches", "leaves", "links", "solve", "display", "timings_s",
+                                     "peak_memory_bytes", "warnings", "error"}));
     // bytes and reason come on top of what was agreed on.
     EXPECT_EQ(keys(json["links"]),
               std::set<std::string>({"radiance", "antiradiance", "total", "bytes"}));
     EXPECT_EQ(keys(json["solve"]), std::set<std::string>({"backend", "renderer", "reason",
                                                           "iterations", "residual", "converged"}));
+    EXPECT_EQ(keys(json["display"]), std::set<std::string>({"mode", "backend", "renderer"}));
     EXPECT_EQ(keys(json["timings_s"]),
               std::set<std::string>({"sync", "hierarchy", "links", "visibility", "direct", "solve",
                                      "display", "total"}));
@@ -134,6 +136,8 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     EXPECT_LT(json["solve"]["residual"].get<double>(), 1e-4);
     EXPECT_TRUE(json["solve"]["converged"].get<bool>());
     EXPECT_TRUE(json["solve"]["backend"] == "CPU" || json["solve"]["backend"] == "OPENGL");
+    EXPECT_EQ(json["display"]["mode"], "PATCHES");
+    EXPECT_EQ(json["display"]["backend"], "CPU") << "flat patches have no work for a device";
     EXPECT_EQ(json["timings_s"]["sync"].get<double>(), 0.25);
     double sum = 0;
     for (const auto& [stage, seconds] : json["timings_s"].items()) {
