@@ -136,8 +136,8 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     EXPECT_LT(json["solve"]["residual"].get<double>(), 1e-4);
     EXPECT_TRUE(json["solve"]["converged"].get<bool>());
     EXPECT_TRUE(json["solve"]["backend"] == "CPU" || json["solve"]["backend"] == "OPENGL");
-    EXPECT_EQ(json["display"]["mode"], "PATCHES");
-    EXPECT_EQ(json["display"]["backend"], "CPU") << "flat patches have no work for a device";
+    EXPECT_EQ(json["display"]["mode"], "FINAL_SHOOTING");
+    EXPECT_EQ(json["display"]["backend"], "") << "the scene has no camera";
     EXPECT_EQ(json["timings_s"]["sync"].get<double>(), 0.25);
     double sum = 0;
     for (const auto& [stage, seconds] : json["timings_s"].items()) {
