@@ -2,6 +2,7 @@
 #include "display/shooting_gl.h"
 
 #include <algorithm>
+#include <array>
 
 #include "display/interleave.h"
 
@@ -91,17 +92,12 @@ private:
     Buffer<BinWeights::Texel> bin_texels_;
 };
 
-std::vector<glsl::Receiver> receivers_of(const ShootingInput& input) {
-    std::vector<glsl::Receiver> receivers;
-    receivers.reserve(input.buffer.fragments.size());
-    for (const Fragment& f : input.buffer.fragments) {
-        const SurfaceId surface =
-            f.leaf == kNone ? kNone : input.tree.surface[static_cast<std::size_t>(f.leaf)];
-        receivers.push_back({f.position, surface, f.normal,
-                             interleave_subset(f.pixel, input.buffer.width, input.interleave),
-                             f.shading_normal, 0});
-    }
-    return receivers;
+glsl::Receiver receiver_of(const ShootingInput& input, const Fragment& f) {
+    const SurfaceId surface =
+        f.leaf == kNone ? kNone : input.tree.surface[static_cast<std::size_t>(f.leaf)];
+    return {f.position,       surface,
+            f.normal,         interleave_subset(f.pixel, input.buffer.width, input.interleave),
+            f.shading_normal, 0};
 }
 
 }  // namespace
@@ -115,9 +111,9 @@ std::vector<vec3> GlShooting::shoot(const AntiradianceShooting& input, Progress&
         return std::make_unique<ShootingTables>(input, program);
     });
     const ShootingInput& in = input.shooting;
-    const std::vector<glsl::Receiver> receivers = receivers_of(in);
     const std::vector<vec4> sums = runner_.run(
-        {in.groups, in.sources, receivers, in.tree.size(), ShootingTables::bytes_per_node(input)},
+        {in.buffer, in.groups, in.sources, [&](const Fragment& f) { return receiver_of(in, f); },
+         in.tree.size(), ShootingTables::bytes_per_node(input)},
         tables, progress, span);
     const auto scale = static_cast<float>(in.interleave * in.interleave);
     std::vector<vec3> irradiance(sums.size());

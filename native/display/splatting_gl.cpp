@@ -33,12 +33,8 @@ private:
     Buffer<glsl::Disk> disks_;
 };
 
-std::vector<glsl::Receiver> receivers_of(const GBuffer& buffer) {
-    std::vector<glsl::Receiver> receivers;
-    receivers.reserve(buffer.fragments.size());
-    for (const Fragment& f : buffer.fragments)
-        receivers.push_back({f.position, kNone, f.normal, 0, f.shading_normal, 0});
-    return receivers;
+glsl::Receiver receiver_of(const Fragment& f) {
+    return {f.position, kNone, f.normal, 0, f.shading_normal, 0};
 }
 
 }  // namespace
@@ -51,10 +47,9 @@ std::vector<vec3> GlSplatting::splat(const SplattingInput& input, Progress& prog
     gpu::OnGlThread<NodeTables> tables = runner_.make_tables(program_, [&](const Program& program) {
         return std::make_unique<DiskTable>(input, program);
     });
-    const std::vector<glsl::Receiver> receivers = receivers_of(input.buffer);
-    const std::vector<vec4> sums =
-        runner_.run({input.groups, input.disks, receivers, input.tree.size(), sizeof(glsl::Disk)},
-                    tables, progress, span);
+    const std::vector<vec4> sums = runner_.run({input.buffer, input.groups, input.disks,
+                                                receiver_of, input.tree.size(), sizeof(glsl::Disk)},
+                                               tables, progress, span);
     std::vector<vec3> irradiance(sums.size(), vec3(0));
     for (const std::uint32_t f : input.groups.order)
         irradiance[f] = splatted_mean(input, input.buffer.fragments[f], vec3(sums[f]), sums[f].w);

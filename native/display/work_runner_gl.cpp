@@ -119,6 +119,24 @@ void WorkRunner::run_places(Run& run, const WorkBatch& batch, std::uint32_t firs
     }
 }
 
+std::vector<vec4> WorkRunner::run_batch(Run& run, const WorkBatch& batch,
+                                        std::span<const glsl::Receiver> receivers,
+                                        std::span<const NodeRange> ranges) {
+    gpu::OnGlThread<BatchBuffers> buffers(
+        thread_, [&](gpu::GlContext&) { return std::make_unique<BatchBuffers>(batch, receivers); });
+    run.batch = &buffers;
+    for (const NodeRange& range : ranges) {
+        if (run.nodes != range) {
+            run.tables.run([&](NodeTables& tables, gpu::GlContext&) { tables.send(range); });
+            run.nodes = range;
+        }
+        for (std::uint32_t place = 0; place < batch.longest_list;
+             place += config_.places_per_dispatch)
+            run_places(run, batch, place);
+    }
+    return buffers.run([](BatchBuffers& b, gpu::GlContext&) { return b.sums.read(); });
+}
+
 std::vector<vec4> WorkRunner::run(const FragmentWork& work, gpu::OnGlThread<NodeTables>& tables,
                                   Progress& progress, ProgressSpan span) {
     const std::vector<WorkBatch> batches =
@@ -129,28 +147,15 @@ std::vector<vec4> WorkRunner::run(const FragmentWork& work, gpu::OnGlThread<Node
     for (const WorkBatch& batch : batches)
         run.all_pairs += batch.pairs() * static_cast<double>(ranges.size());
 
-    std::vector<vec4> sums(work.receivers.size(), vec4(0));
+    std::vector<vec4> sums(work.buffer.fragments.size(), vec4(0));
     for (const WorkBatch& batch : batches) {
         const auto order =
             std::span(work.groups.order).subspan(batch.first_fragment, batch.fragment_count);
         std::vector<glsl::Receiver> receivers;
         receivers.reserve(order.size());
         for (const std::uint32_t i : order)
-            receivers.push_back(work.receivers[i]);
-        gpu::OnGlThread<BatchBuffers> buffers(thread_, [&](gpu::GlContext&) {
-            return std::make_unique<BatchBuffers>(batch, receivers);
-        });
-        run.batch = &buffers;
-        for (const NodeRange& range : ranges) {
-            if (run.nodes.begin != range.begin || run.nodes.count != range.count)
-                tables.run([&](NodeTables& t, gpu::GlContext&) { t.send(range); });
-            run.nodes = range;
-            for (std::uint32_t place = 0; place < batch.longest_list;
-                 place += config_.places_per_dispatch)
-                run_places(run, batch, place);
-        }
-        const std::vector<vec4> result =
-            buffers.run([](BatchBuffers& b, gpu::GlContext&) { return b.sums.read(); });
+            receivers.push_back(work.receiver(work.buffer.fragments[i]));
+        const std::vector<vec4> result = run_batch(run, batch, receivers, ranges);
         for (std::size_t i = 0; i < order.size(); ++i)
             sums[order[i]] = result[i];
     }

@@ -3,7 +3,9 @@
 // some tens of milliseconds.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace antiradiance {
 
 struct NodeRange {
     std::uint32_t begin = 0, count = 0;
+    bool operator==(const NodeRange&) const = default;
 };
 
 // A program, and what it needs to know of the nodes in a range. On the OpenGL thread.
@@ -29,9 +32,10 @@ public:
 };
 
 struct FragmentWork {
+    const GBuffer& buffer;
     const FragmentGroups& groups;
     const SourceLists& lists;
-    const std::vector<glsl::Receiver>& receivers;  // #fragments
+    std::function<glsl::Receiver(const Fragment&)> receiver;
     std::size_t node_count;
     std::size_t bytes_per_node;  // of the largest table
 };
@@ -51,8 +55,8 @@ public:
                 }};
     }
 
-    // The sums of all fragments, in the order of their lists; 0 where a list is empty. //
-    // #fragments Throws gpu::GlError when the device fails, and Cancelled.
+    // The sums of all fragments (#fragments), each in the order of its list; 0 where that is empty.
+    // Throws Cancelled; gpu::GlError when the device fails.
     [[nodiscard]] std::vector<vec4> run(const FragmentWork& work,
                                         gpu::OnGlThread<NodeTables>& tables, Progress& progress,
                                         ProgressSpan span);
@@ -61,6 +65,9 @@ private:
     struct BatchBuffers;
     struct Run;
 
+    [[nodiscard]] std::vector<vec4> run_batch(Run& run, const WorkBatch& batch,
+                                              std::span<const glsl::Receiver> receivers,
+                                              std::span<const NodeRange> ranges);
     void run_places(Run& run, const WorkBatch& batch, std::uint32_t first_place);
     void run_slice(Run& run, std::size_t first_item, std::size_t count, std::uint32_t first_place,
                    double pairs);

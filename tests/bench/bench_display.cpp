@@ -21,9 +21,10 @@ std::unique_ptr<DisplayBackend> cpu(std::string&) {
     return make_cpu_display();
 }
 
-// What the room's camera sees, and random light.
+// What the room's camera sees, and random light. A quarter of the pixels, for software renderers.
 struct View {
     const Stages& room = stages(Visibility::kImplicit);
+    Scene scene = room.scene;
     Progress progress;
     std::vector<vec3> light;
     GBuffer buffer;
@@ -31,17 +32,18 @@ struct View {
     BinWeights bins{room.model.links.bins, 256};
 
     View() : light(room.model.tree.size()) {
+        scene.camera.width = scene.camera.x1 = 160;
+        scene.camera.height = scene.camera.y1 = 120;
         std::mt19937 random(1);
         std::uniform_real_distribution<float> uniform(0, 1);
         for (vec3& l : light)
             l = vec3(uniform(random));
         buffer = make_gbuffer(
-            {room.scene, room.model.rays, room.model.tree, *room.direct, light, false, 4}, progress,
-            {});
+            {scene, room.model.rays, room.model.tree, *room.direct, light, false, 4}, progress, {});
         antiradiance = antiradiance_table(room.model.tree, room.model.links, light, progress);
     }
     [[nodiscard]] FragmentGroups tiles() const {
-        return tile_groups(buffer, vec3(room.scene.camera.to_world[3]), 8);
+        return tile_groups(buffer, vec3(scene.camera.to_world[3]), 8);
     }
 };
 

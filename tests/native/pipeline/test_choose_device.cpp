@@ -77,8 +77,9 @@ TEST(ChooseDevice, OpenGlThatCanNotBeHadSaysWhatToDo) {
         }
         std::exit(1);
     };
-    EXPECT_EXIT(insist(), testing::ExitedWithCode(0),
-                "OpenGL display can't run: .*ANTIRADIANCE_NO_OPENGL.*set Device to Automatic or CPU");
+    EXPECT_EXIT(
+        insist(), testing::ExitedWithCode(0),
+        "OpenGL display can't run: .*ANTIRADIANCE_NO_OPENGL.*set Device to Automatic or CPU");
 }
 
 // Where each display mode is computed, as the report tells.
