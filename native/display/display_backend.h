@@ -19,9 +19,8 @@ class DisplayBackend {
 public:
     virtual ~DisplayBackend() = default;
 
-    // Irradiance of every fragment, W/m2, as shoot() and splat() of the CPU have it. Throw
-    // Cancelled; gpu::GlError when the device fails.                                          //
-    // #fragments
+    // Irradiance of every fragment (#fragments), W/m2, as the CPU's shoot() and splat() have it.
+    // Throw Cancelled; gpu::GlError when the device fails.
     [[nodiscard]] virtual std::vector<vec3> shoot(const AntiradianceShooting& input,
                                                   Progress& progress, ProgressSpan span) = 0;
     [[nodiscard]] virtual std::vector<vec3> splat(const SplattingInput& input, Progress& progress,

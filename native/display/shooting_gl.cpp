@@ -72,7 +72,7 @@ private:
     }
 
     void append_shape(NodeId node, std::vector<vec4>& shapes) const {
-        if (in_.shooting.tree.is_cluster(node)) {  // lights nothing
+        if (in_.shooting.tree.is_cluster(node)) {  // a point
             shapes.resize(shapes.size() + shape_size(in_));
             return;
         }
@@ -80,8 +80,8 @@ private:
         const int last = in_.shooting.tree.corner_count(node) - 1;
         for (int k = 0; k < glsl::kShapeCorners; ++k)
             shapes.emplace_back(corners[static_cast<std::size_t>(std::min(k, last))], 0);
-        for (const vec3& point : in_.lights.points(node))
-            shapes.emplace_back(point, 0);
+        for (const LightPoint& point : in_.lights.points(node))
+            shapes.emplace_back(point.position, 0);
     }
 
     const AntiradianceShooting& in_;

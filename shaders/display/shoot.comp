@@ -27,6 +27,13 @@ float transfer(Receiver r, vec3 source_normal, vec3 d, float d2) {
     return abs(dot(d, source_normal)) * cos_r / (d2 * d2);
 }
 
+// cos / d^2 at a receiver of a light without extent.
+float transfer_from_point(Receiver r, vec3 d, float d2) {
+    float cos_r = -dot(d, r.shading);
+    if (cos_r <= 0.0 || dot(d, r.normal) >= 0.0) return 0.0;
+    return cos_r / (d2 * sqrt(d2));
+}
+
 bool in_one_plane(Receiver r, Light s, float height) {
     if (abs(height) < epsilon) return true;
     return abs(height) < kFlatHeight * s.radius && dot(r.normal, s.normal) > kFlatCosine;
@@ -61,8 +68,12 @@ vec3 near_light(Receiver r, Light s, int row, bool in_front, bool is_close) {
 
 vec3 light_from(Receiver r, Light s, int row) {
     vec3 d = r.position - s.center;
-    float height = dot(d, s.normal);
     float d2 = dot(d, d);
+    if (s.area == 0.0) {  // a cluster
+        float w = transfer_from_point(r, d, d2);
+        return w > 0.0 ? -w * seen_antiradiance(row, d) : vec3(0.0);
+    }
+    float height = dot(d, s.normal);
     float r2 = s.radius * s.radius;
     if (r.surface == s.surface || in_one_plane(r, s, height)) return vec3(0.0);
     if (d2 <= kFar * kFar * r2) {

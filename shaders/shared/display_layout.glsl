@@ -63,7 +63,7 @@ struct Light {
     vec3 center;    // m
     float radius;   // m
     vec3 normal;    // unit
-    float area;     // m2
+    float area;     // m2; 0: a cluster, whose antiradiance is an intensity, W/sr
     vec3 radiance;  // W/(m2 sr)
     int surface;
 };

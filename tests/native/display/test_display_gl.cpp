@@ -3,6 +3,7 @@
 // random light and antiradiance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -144,16 +145,15 @@ TEST_F(GlDisplayTest, ShootsLikeTheCpuWithAnyNumberOfPoints) {
     }
 }
 
-// Clusters and triangles stand in the tree, but only patches of them shoot.
-TEST_F(GlDisplayTest, ShootsLikeTheCpuPastClustersAndTriangles) {
-    Scene scene = test::floating_boxes(2);
-    test::add_polygon(scene, "Triangle", {{0.2F, 0.2F, 1}, {1.8F, 0.2F, 1}, {1, 1.8F, 1.2F}}, 0);
-    Lit room(scene, vec3(1.9F, 1.9F, 1.7F), vec3(0.5F), 0.3F, kWidth, kHeight);
-    ASSERT_TRUE(room.tree.is_cluster(0));
-    for (const ShootingLevel level : {ShootingLevel::kParents, ShootingLevel::kCut}) {
-        SCOPED_TRACE(testing::Message() << "level " << static_cast<int>(level));
-        expect_close(room.shoot(*gl, level), room.shoot(*cpu, level));
-    }
+TEST_F(GlDisplayTest, ShootsLikeTheCpuWithClustersAndTriangles) {
+    Scene scene = test::floating_boxes(4);
+    test::add_polygon(scene, "Triangle", {{0.2F, 0.2F, 3}, {3.8F, 0.2F, 3}, {2, 3.8F, 3.2F}}, 0);
+    Lit room(scene, vec3(3.9F, 3.9F, 3.7F), vec3(0.5F), 1, 24, 16);
+    const FragmentGroups groups = tile_groups(room.buffer, room.eye(), kTile);
+    const SourceLists lists = cut_sources(room.tree, groups, kCutThreshold, room.progress);
+    ASSERT_TRUE(std::any_of(lists.sources.begin(), lists.sources.end(),
+                            [&](NodeId n) { return room.tree.is_cluster(n); }));
+    expect_close(room.shoot(*gl, groups, lists), room.shoot(*cpu, groups, lists));
 }
 
 TEST_F(GlDisplayTest, ShootsLikeTheCpuOverLinkedLists) {
