@@ -21,8 +21,7 @@ namespace {
 constexpr float kGBufferShare = 0.5F;
 constexpr ProgressSpan kIndirectSpan{kGBufferShare, 1};
 
-constexpr int kTileSize = 8;            // pixels along a side of what shares a list of sources
-constexpr float kCutThreshold = 0.04F;  // sr, projected, of a node at a tile
+constexpr int kTileSize = 8;  // pixels along a side of what shares a list of sources
 
 // Indirect irradiance of every fragment, W/m2.
 using IndirectLight = std::vector<vec3> (*)(const DisplayInput&, const DisplayOptions&,
@@ -86,12 +85,13 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
                                       : tile_groups(buffer, eye_of(input.scene.camera),
                                                     std::max(kTileSize, options.interleave));
     const ShootingLevel level = options.shooting_level;
+    CutRule rule;
+    rule.fronts_only = options.shooting_visibility == ShootingVisibility::kRays;
     SourceLists sources;
     if (input.links_removed) {
-        sources =
-            linked_sources(input.tree, input.links, buffer, groups, level, kCutThreshold, progress);
+        sources = linked_sources(input.tree, input.links, buffer, groups, level, rule, progress);
     } else if (level == ShootingLevel::kCut) {
-        sources = cut_sources(input.tree, groups, kCutThreshold, progress);
+        sources = cut_sources(input.tree, groups, rule, progress);
     } else {
         sources = all_sources(input.tree, level, groups.groups.size());
     }

@@ -35,9 +35,9 @@ public:
     [[nodiscard]] const PatchLight& operator[](NodeId n) const {
         return lights_[static_cast<std::size_t>(n)];
     }
-    // The light's points, uniform by area, below clusters by the light that they send; the first few
-    // of them are spread over all of it too. They depend on the patch alone, so that animations do
-    // not flicker.
+    // The light's points, uniform by area, below clusters by the light that they send; the first
+    // few of them are spread over all of it too. They depend on the patch alone, so that animations
+    // do not flicker.
     [[nodiscard]] std::span<const LightPoint> points(NodeId n) const {
         const auto count = static_cast<std::size_t>(samples_);
         return {points_.data() + static_cast<std::size_t>(n) * count, count};

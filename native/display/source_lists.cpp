@@ -12,16 +12,34 @@ namespace {
 
 constexpr float kNear = 2;  // radii of a node within which it is refined
 
+// Whether a sphere lies wholly behind all planes whose normals are within a cone about `axis`.
+// d: m, from the planes to the sphere's centre; reach: m, its radius and that of the planes'
+// places.
+bool is_behind(const vec3& axis, float cone_cosine, const vec3& d, float reach) {
+    if (cone_cosine <= 0) return false;
+    const float distance = glm::length(d);
+    if (distance <= reach) return false;
+    // angle - cone - asin(reach / distance) >= 90 degrees, without the angles.
+    const float cosine = glm::dot(d, axis) / distance;
+    if (cosine > 0) return false;
+    const float sine_cone = std::sqrt(std::max(0.0F, 1 - cone_cosine * cone_cosine));
+    const float sine_reach = reach / distance;
+    const float cosine_reach = std::sqrt(1 - sine_reach * sine_reach);
+    if (cone_cosine * cosine_reach <= sine_cone * sine_reach) return false;
+    // -cosine = sin(angle - 90 deg) against sin(cone + reach), both angles below 90 degrees.
+    return -cosine >= sine_cone * cosine_reach + cone_cosine * sine_reach;
+}
+
 class Cut {
 public:
-    Cut(const PatchTree& tree, float threshold) : tree_(tree), threshold_(threshold) {}
+    Cut(const PatchTree& tree, const CutRule& rule) : tree_(tree), rule_(rule) {}
 
     // Appends the cut below `from` as seen from a group.
     void descend(NodeId from, const FragmentGroup& group, std::vector<NodeId>& out) const {
         const NodeId stop = tree_.subtree_end[static_cast<std::size_t>(from)];
         for (NodeId n = from; n < stop;) {
             const NodeId next = tree_.subtree_end[static_cast<std::size_t>(n)];
-            if (below_horizon(n, group)) {
+            if (below_horizon(n, group) || (rule_.fronts_only && faces_away(n, group))) {
                 n = next;
             } else if (tree_.is_leaf(n) || is_small(n, group)) {
                 out.push_back(n);
@@ -35,22 +53,17 @@ public:
 private:
     // Whether no point of the node can lie above any fragment's horizon.
     [[nodiscard]] bool below_horizon(NodeId node, const FragmentGroup& group) const {
-        if (group.cone_cosine <= 0) return false;
         const auto n = static_cast<std::size_t>(node);
-        const vec3 d = tree_.center[n] - group.center;
-        const float reach = tree_.radius[n] + group.radius;
-        const float distance = glm::length(d);
-        if (distance <= reach) return false;
-        // The same test as for a cluster of receivers: angle - cone - asin(reach / d) >= 90 deg.
-        const float cosine = glm::dot(d, group.normal) / distance;
-        if (cosine > 0) return false;
-        const float sine_cone =
-            std::sqrt(std::max(0.0F, 1 - group.cone_cosine * group.cone_cosine));
-        const float sine_reach = reach / distance;
-        const float cosine_reach = std::sqrt(1 - sine_reach * sine_reach);
-        if (group.cone_cosine * cosine_reach <= sine_cone * sine_reach) return false;
-        // -cosine = sin(angle - 90 deg) against sin(cone + reach), both angles below 90 degrees.
-        return -cosine >= sine_cone * cosine_reach + group.cone_cosine * sine_reach;
+        return is_behind(group.normal, group.cone_cosine, tree_.center[n] - group.center,
+                         group.radius + tree_.radius[n]);
+    }
+
+    // Whether the group lies behind all surfaces of the node.
+    [[nodiscard]] bool faces_away(NodeId node, const FragmentGroup& group) const {
+        const auto n = static_cast<std::size_t>(node);
+        const float extent = tree_.is_cluster(node) ? tree_.radius[n] : 0;
+        return is_behind(tree_.normal[n], tree_.cone_cosine[n], group.center - tree_.center[n],
+                         group.radius + extent);
     }
 
     [[nodiscard]] bool is_small(NodeId node, const FragmentGroup& group) const {
@@ -59,14 +72,14 @@ private:
         const float distance = glm::length(d) - group.radius;
         if (distance <= kNear * tree_.radius[n]) return false;
         if (tree_.is_cluster(node))
-            return kPi * tree_.radius[n] * tree_.radius[n] < threshold_ * distance * distance;
+            return kPi * tree_.radius[n] * tree_.radius[n] < rule_.threshold * distance * distance;
         const float height = std::abs(glm::dot(d, tree_.normal[n])) + group.radius;
         const float cosine = std::min(1.0F, height / distance);
-        return tree_.area[n] * cosine < threshold_ * distance * distance;
+        return tree_.area[n] * cosine < rule_.threshold * distance * distance;
     }
 
     const PatchTree& tree_;
-    float threshold_;
+    CutRule rule_;
 };
 
 bool stops(const PatchTree& tree, NodeId n, ShootingLevel level) {
@@ -123,16 +136,16 @@ SourceLists all_sources(const PatchTree& tree, ShootingLevel level, std::size_t 
     return lists;
 }
 
-SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups, float threshold,
+SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups, const CutRule& rule,
                         Progress& progress) {
-    const Cut cut(tree, threshold);
+    const Cut cut(tree, rule);
     return collect_lists(
         groups.groups.size(), progress,
         [&](std::size_t g, std::vector<NodeId>& list) { cut.descend(0, groups.groups[g], list); });
 }
 
 SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GBuffer& buffer,
-                           const FragmentGroups& groups, ShootingLevel level, float threshold,
+                           const FragmentGroups& groups, ShootingLevel level, const CutRule& rule,
                            Progress& progress) {
     // Segments by receiver.
     std::vector<std::uint32_t> begin(tree.size() + 1, 0);
@@ -145,7 +158,7 @@ SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GB
     for (std::uint32_t i = 0; i < links.segments.size(); ++i)
         of_node[fill[static_cast<std::size_t>(links.segments[i].receiver)]++] = i;
 
-    const Cut cut(tree, threshold);
+    const Cut cut(tree, rule);
     return collect_lists(groups.groups.size(), progress,
                          [&](std::size_t g, std::vector<NodeId>& list) {
                              const FragmentGroup& group = groups.groups[g];

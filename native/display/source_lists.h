@@ -33,17 +33,24 @@ struct SourceLists {
 [[nodiscard]] SourceLists all_sources(const PatchTree& tree, ShootingLevel level,
                                       std::size_t group_count);
 
-// A cut through the tree for each group: nodes are replaced by their children while the projected
-// solid angle at the group is above `threshold` (sr) or they are near (in the spirit of Walter et
-// al. 2005, "Lightcuts", but with one bound on geometry instead of one on error).
+struct CutRule {
+    float threshold = 0.04F;   // sr, projected, at the group: larger nodes are refined
+    bool fronts_only = false;  // leave out what turns its back on the group: it sends it no
+                               // radiance, but antiradiance
+};
+
+// A cut through the tree for each group, of patches and clusters: nodes are replaced by their
+// children while they look larger than the rule allows or are near (in the spirit of Walter et al.
+// 2005, "Lightcuts", but with one bound on geometry instead of one on error).
 [[nodiscard]] SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups,
-                                      float threshold, Progress& progress);
+                                      const CutRule& rule, Progress& progress);
 
 // Only what links connect to the groups' receiver or its ancestors (groups of one leaf each), for
 // a link mesh that lost links: CUT starts at those sources and only descends, LEAVES takes the
 // leaves below them.
 [[nodiscard]] SourceLists linked_sources(const PatchTree& tree, const LinkSet& links,
                                          const GBuffer& buffer, const FragmentGroups& groups,
-                                         ShootingLevel level, float threshold, Progress& progress);
+                                         ShootingLevel level, const CutRule& rule,
+                                         Progress& progress);
 
 }  // namespace antiradiance

@@ -50,8 +50,7 @@ private:
 
 }  // namespace
 
-SurfaceSampler::SurfaceSampler(const PatchTree& tree, std::span<const float> weight)
-    : tree_(tree) {
+SurfaceSampler::SurfaceSampler(const PatchTree& tree, std::span<const float> weight) : tree_(tree) {
     first_leaf_.resize(tree.size() + 1);
     area_.push_back(0);
     for (std::size_t n = 0; n < tree.size(); ++n) {

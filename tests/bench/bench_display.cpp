@@ -86,7 +86,7 @@ void shoot(benchmark::State& state, MakeBackend make, ShootingLevel level, int i
     const FragmentGroups groups = v.tiles();
     Progress progress;
     const SourceLists lists = level == ShootingLevel::kCut
-                                  ? cut_sources(tree, groups, 0.02F, progress)
+                                  ? cut_sources(tree, groups, CutRule{}, progress)
                                   : all_sources(tree, level, groups.groups.size());
     const PatchLights lights(tree, v.light, 8);
     const ShootingInput input{tree, v.buffer, groups, lists, v.light, interleave};

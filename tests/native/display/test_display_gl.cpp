@@ -22,7 +22,6 @@
 namespace antiradiance {
 namespace {
 
-constexpr float kCutThreshold = 0.02F;
 constexpr int kTile = 8;
 
 constexpr int kWidth = 48, kHeight = 32;
@@ -96,7 +95,7 @@ struct Lit {
     std::vector<vec3> shoot(DisplayBackend& backend, ShootingLevel level, int interleave = 1) {
         const FragmentGroups groups = tile_groups(buffer, eye(), std::max(kTile, interleave));
         const SourceLists lists = level == ShootingLevel::kCut
-                                      ? cut_sources(tree, groups, kCutThreshold, progress)
+                                      ? cut_sources(tree, groups, CutRule{}, progress)
                                       : all_sources(tree, level, groups.groups.size());
         return shoot(backend, groups, lists, interleave);
     }
@@ -137,7 +136,7 @@ TEST_F(GlDisplayTest, ShootsLikeTheCpuAtAllLevelsAndInterleaved) {
 TEST_F(GlDisplayTest, ShootsLikeTheCpuWithAnyNumberOfPoints) {
     Lit room = lit_office();
     const FragmentGroups groups = tile_groups(room.buffer, room.eye(), kTile);
-    const SourceLists lists = cut_sources(room.tree, groups, kCutThreshold, room.progress);
+    const SourceLists lists = cut_sources(room.tree, groups, CutRule{}, room.progress);
     for (const int samples : {1, 3, 16}) {
         SCOPED_TRACE(testing::Message() << samples << " points");
         expect_close(room.shoot(*gl, groups, lists, 1, samples),
@@ -150,7 +149,7 @@ TEST_F(GlDisplayTest, ShootsLikeTheCpuWithClustersAndTriangles) {
     test::add_polygon(scene, "Triangle", {{0.2F, 0.2F, 3}, {3.8F, 0.2F, 3}, {2, 3.8F, 3.2F}}, 0);
     Lit room(scene, vec3(3.9F, 3.9F, 3.7F), vec3(0.5F), 1, 24, 16);
     const FragmentGroups groups = tile_groups(room.buffer, room.eye(), kTile);
-    const SourceLists lists = cut_sources(room.tree, groups, kCutThreshold, room.progress);
+    const SourceLists lists = cut_sources(room.tree, groups, CutRule{}, room.progress);
     ASSERT_TRUE(std::any_of(lists.sources.begin(), lists.sources.end(),
                             [&](NodeId n) { return room.tree.is_cluster(n); }));
     expect_close(room.shoot(*gl, groups, lists), room.shoot(*cpu, groups, lists));
@@ -167,8 +166,8 @@ TEST_F(GlDisplayTest, ShootsLikeTheCpuOverLinkedLists) {
     const FragmentGroups groups = receiver_groups(room.buffer);
     for (const ShootingLevel level : {ShootingLevel::kLeaves, ShootingLevel::kCut}) {
         SCOPED_TRACE(testing::Message() << "level " << static_cast<int>(level));
-        const SourceLists lists = linked_sources(room.tree, links, room.buffer, groups, level,
-                                                 kCutThreshold, room.progress);
+        const SourceLists lists =
+            linked_sources(room.tree, links, room.buffer, groups, level, CutRule{}, room.progress);
         ASSERT_GT(lists.sources.size(), groups.groups.size());
         expect_close(room.shoot(*gl, groups, lists), room.shoot(*cpu, groups, lists));
     }

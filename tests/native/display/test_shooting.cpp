@@ -40,7 +40,7 @@ protected:
         Progress progress;
         const FragmentGroups groups = tile_groups(buffer, vec3(0.5F), 8);
         const SourceLists sources = level == ShootingLevel::kCut
-                                        ? cut_sources(tree_, groups, 0.02F, progress)
+                                        ? cut_sources(tree_, groups, CutRule{}, progress)
                                         : all_sources(tree_, level, groups.groups.size());
         const PatchLights lights(tree_, radiance_, 8);
         const std::vector<Moments> clusters = pull_moments(tree_, radiance_);
@@ -208,7 +208,7 @@ TEST_F(Shooting, a_cut_holds_every_leaf_once_that_is_not_below_the_horizon) {
     const GBuffer buffer = test::plane_buffer(32, 32, 0.03F);
     const FragmentGroups groups = tile_groups(buffer, vec3(0.5F), 8);
     Progress progress;
-    const SourceLists lists = cut_sources(tree_, groups, 0.02F, progress);
+    const SourceLists lists = cut_sources(tree_, groups, CutRule{}, progress);
     std::size_t coarse = 0;
     for (std::size_t g = 0; g < groups.groups.size(); ++g) {
         std::vector<int> covered(tree_.size(), 0);
@@ -244,13 +244,13 @@ TEST_F(Shooting, only_linked_sources_light_a_receiver_of_a_cut_mesh) {
     ASSERT_EQ(groups.groups.size(), 2U);
     Progress progress;
     const SourceLists leaves =
-        linked_sources(tree_, links, buffer, groups, ShootingLevel::kLeaves, 0.02F, progress);
+        linked_sources(tree_, links, buffer, groups, ShootingLevel::kLeaves, CutRule{}, progress);
     EXPECT_EQ(leaves.of(0).size(), 4U);
     for (const NodeId n : leaves.of(0))
         EXPECT_EQ(tree_.parent[static_cast<std::size_t>(n)], source);
     EXPECT_TRUE(leaves.of(1).empty());
     const SourceLists parents =
-        linked_sources(tree_, links, buffer, groups, ShootingLevel::kParents, 0.02F, progress);
+        linked_sources(tree_, links, buffer, groups, ShootingLevel::kParents, CutRule{}, progress);
     ASSERT_EQ(parents.of(0).size(), 1U);
     EXPECT_EQ(parents.of(0)[0], source);
 }

@@ -33,7 +33,7 @@ TEST(Options, DefaultsAreThoseOfTheManual) {
     EXPECT_EQ(o.max_patch_size, 0);
     EXPECT_EQ(o.visibility_rays, 4);
     EXPECT_EQ(o.solver, SolverChoice::kAuto);
-    EXPECT_EQ(o.display, DisplayMode::kPatches);
+    EXPECT_EQ(o.display, DisplayMode::kFinalShooting);
     EXPECT_EQ(o.report_path, "");
 }
 
