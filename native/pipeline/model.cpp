@@ -97,17 +97,8 @@ void check_memory(const Scene& scene, const std::vector<Surface>& surfaces, floa
                      " of memory; " + gibibytes(available) + " are free: raise Max Patch Size");
 }
 
-// Whether antiradiance is solved for, or shot in the picture.
-bool needs_directions(const Options& options) {
-    const DisplayOptions display = options.resolved_display();
-    return options.visibility == Visibility::kImplicit ||
-           (display.mode == DisplayMode::kFinalShooting &&
-            display.shooting_visibility == ShootingVisibility::kAntiradiance);
-}
-
 // Directions that links are sorted by. Between patches EXPLICIT asks for none, and with the fewest
-// bins it needs less memory and time for the same light; clusters send into each bin its own, and
-// final shooting without rays sends antiradiance on by bins.
+// bins it needs less memory and time for the same light; clusters send into each bin its own.
 int link_bins(const Options& options, bool cluster_links) {
     return cluster_links || needs_directions(options) ? options.direction_bins : kFewestBins;
 }
@@ -179,6 +170,13 @@ void drop_buried(const PatchTree& tree, std::vector<RawLink>& links) {
 }
 
 }  // namespace
+
+bool needs_directions(const Options& options) {
+    const DisplayOptions display = options.resolved_display();
+    return options.visibility == Visibility::kImplicit ||
+           (display.mode == DisplayMode::kFinalShooting &&
+            display.shooting_visibility == ShootingVisibility::kAntiradiance);
+}
 
 Model build_model(const Scene& scene, const Options& options, Progress& progress) {
     Stopwatch watch;

@@ -24,6 +24,10 @@ struct Model {
     double visibility_seconds = 0;  // rays
 };
 
+// Whether antiradiance is solved for, or shot in the picture: links are then made for the direction
+// of their light.
+[[nodiscard]] bool needs_directions(const Options& options);
+
 // `scene` is valid (see validate()). Throws SceneError when the patches or links would not fit into
 // memory, before they are made.
 Model build_model(const Scene& scene, const Options& options, Progress& progress);

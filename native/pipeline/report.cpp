@@ -6,6 +6,9 @@
 namespace antiradiance {
 
 std::string Report::to_json() const {
+    auto stages_json = nlohmann::ordered_json::object();
+    for (const auto& [name, what] : stages)
+        stages_json[name] = what;
     const nlohmann::ordered_json json = {
         {"patches", patches},
         {"leaves", leaves},
@@ -23,6 +26,7 @@ std::string Report::to_json() const {
           {"converged", solve.converged}}},
         {"display",
          {{"mode", display.mode}, {"backend", display.backend}, {"renderer", display.renderer}}},
+        {"stages", stages_json},
         {"timings_s",
          {{"sync", timings_s.sync},
           {"hierarchy", timings_s.hierarchy},

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace antiradiance {
@@ -11,11 +12,11 @@ namespace antiradiance {
 struct Report {
     std::size_t patches = 0;  // nodes of the hierarchy that are patches, leaves and inner ones
     std::size_t leaves = 0;
-    struct {
+    struct Links {
         std::size_t radiance = 0, antiradiance = 0, total = 0;  // directed links solved
         std::size_t bytes = 0;                                  // of the sorted link mesh
     } links;
-    struct {
+    struct Solve {
         std::string backend;  // OPENGL or CPU
         std::string renderer;
         std::string reason;  // why this back end
@@ -23,16 +24,17 @@ struct Report {
         double residual = 0;
         bool converged = false;
     } solve;
-    struct {
+    struct Display {
         std::string mode;     // the option's item: PATCHES, SPLATTING or FINAL_SHOOTING
         std::string backend;  // OpenGL or CPU; empty without a camera
         std::string renderer;
     } display;
-    struct {
+    struct Timings {
         double sync = 0, hierarchy = 0, links = 0, visibility = 0, direct = 0, solve = 0,
                display = 0, total = 0;
-    } timings_s;
-    std::uint64_t peak_memory_bytes = 0;  // of the process
+    } timings_s;                                              // 0: of a stage that was kept
+    std::vector<std::pair<std::string, std::string>> stages;  // name -> "run" or "kept"
+    std::uint64_t peak_memory_bytes = 0;                      // of the process
     std::vector<std::string> warnings;
     std::string error;  // empty: success
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way from a scene to a picture and a report.
+//
+//   Session session;
+//   session.render(scene, options, ...);    // all stages
+//   session.render(moved_camera, ...);      // the display alone: the solution is kept
 #pragma once
 
 #include <memory>
@@ -14,25 +18,28 @@
 
 namespace antiradiance {
 
+class Stages;
+
 struct RenderResult {
     Picture picture;
     Report report;
 };
 
+// Keeps what the stages of its last render made, for the next one (pipeline/stages.h).
 class Session {
 public:
     Session();
     ~Session();
 
-    // Solves and displays. A report is written to options.report_path on success and on failure.
-    // Throws SceneError (bad input), Cancelled, std::runtime_error.
-    // sync_seconds: what the caller spent on filling `scene`; for the report.
+    // Solves, as far as something has changed since the last call, and displays; after an exception
+    // the session is as good as before. A report is written to options.report_path on success and
+    // on failure. Throws SceneError (bad input), Cancelled, std::runtime_error. sync_seconds: what
+    // the caller spent on filling `scene`; for the report.
     RenderResult render(Scene scene, const Options& options, bool film_transparent,
                         double sync_seconds, Progress& progress);
 
 private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<Stages> stages_;
 };
 
 // For a caller that failed before there was a scene.

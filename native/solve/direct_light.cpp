@@ -10,7 +10,7 @@
 namespace antiradiance {
 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode)
-    : impl_(std::make_unique<Impl>(Impl{scene, rays, {}, {}, {}, {}})) {
+    : impl_(std::make_unique<Impl>(Impl{rays, {}, {}, {}, {}})) {
     const float epsilon = rays.epsilon();
     std::vector<EmitterPtr>& emitters = impl_->emitters;
     for (const Lamp& lamp : scene.lamps) {

@@ -24,7 +24,7 @@ struct SurfacePoint {
 class DirectLight {
 public:
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links.
-    // Borrows both, which must outlive it.
+    // Borrows the rays, which must outlive it.
     DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode);
     ~DirectLight();
 

@@ -32,7 +32,6 @@ inline constexpr float kPixelTolerance = 0.015F;
 inline constexpr float kLeafTolerance = 0.01F;
 
 struct DirectLight::Impl {
-    const Scene& scene;
     const RayScene& rays;
     std::vector<EmitterPtr> emitters;
     std::vector<std::int32_t> always;   // into emitters: each gets its own rays

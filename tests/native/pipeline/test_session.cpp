@@ -113,8 +113,12 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     const RenderResult result = render(test::office(), options);
     const nlohmann::json json = file.read();
     EXPECT_EQ(keys(json),
-              std::set<std::string>({"patches", "leaves", "links", "solve", "display", "timings_s",
-                                     "peak_memory_bytes", "warnings", "error"}));
+              std::set<std::string>({"patches", "leaves", "links", "solve", "display", "stages",
+                                     "timings_s", "peak_memory_bytes", "warnings", "error"}));
+    EXPECT_EQ(
+        json["stages"],
+        nlohmann::json(
+            {{"model", "run"}, {"direct_light", "run"}, {"solve", "run"}, {"display", "run"}}));
     // bytes and reason come on top of what was agreed on.
     EXPECT_EQ(keys(json["links"]),
               std::set<std::string>({"radiance", "antiradiance", "total", "bytes"}));

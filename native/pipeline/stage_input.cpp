@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/stage_input.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "pipeline/model.h"
+
+namespace antiradiance {
+
+namespace {
+
+auto geometry(const Scene& scene) {
+    return std::tie(scene.positions, scene.triangles, scene.triangle_polygon,
+                    scene.triangle_material, scene.triangle_object);
+}
+
+// Of a lamp, what decides which surfaces its light can reach, and its own surface.
+auto place(const Lamp& lamp) {
+    const bool shines = max_component(lamp.power) > 0;
+    return std::tuple(shines, lamp.type, lamp.to_world, lamp.spot_angle, lamp.shape, lamp.size);
+}
+
+// All that shadow rays need to know of a lamp.
+auto light(const Lamp& lamp) {
+    return std::tuple(lamp.type, lamp.to_world, lamp.power, lamp.radius, lamp.spot_angle,
+                      lamp.spot_blend, lamp.spot_cosine, lamp.sun_angle, lamp.shape, lamp.size,
+                      lamp.spread);
+}
+
+template <typename Element, typename Read>
+bool same(const std::vector<Element>& was, const std::vector<Element>& is, Read read) {
+    return std::ranges::equal(was, is, {}, read, read);
+}
+
+bool same_texture(const Scene& was, int was_index, const Scene& is, int is_index) {
+    if (was_index == kNone || is_index == kNone) return was_index == is_index;
+    const Texture& a = was.textures[static_cast<std::size_t>(was_index)];
+    const Texture& b = is.textures[static_cast<std::size_t>(is_index)];
+    return a.width == b.width && a.height == b.height && a.pixels == b.pixels;
+}
+
+// Of all materials: a constant, and the texture on it. The stages before have compared which
+// triangle has which material.
+bool same_colours(const Scene& was, const Scene& is, vec3 Material::*constant,
+                  int Material::*texture) {
+    const auto same_colour = [&](const Material& a, const Material& b) {
+        return a.*constant == b.*constant && same_texture(was, a.*texture, is, b.*texture);
+    };
+    if (!std::ranges::equal(was.materials, is.materials, same_colour)) return false;
+    const bool has_texture = std::ranges::any_of(
+        is.materials, [&](const Material& material) { return material.*texture != kNone; });
+    return !has_texture || was.uv == is.uv;
+}
+
+bool same_emission(const Scene& was, const Scene& is) {
+    return same_colours(was, is, &Material::emission, &Material::emission_texture);
+}
+
+bool same_albedo(const Scene& was, const Scene& is) {
+    return same_colours(was, is, &Material::albedo, &Material::albedo_texture);
+}
+
+auto model_options(const Options& o) {
+    return std::tuple(o.visibility, o.direct_light, o.max_patch_size, o.link_threshold,
+                      o.direction_bins, o.visibility_rays, needs_directions(o));
+}
+
+}  // namespace
+
+bool same_model_input(const StageInput& was, const StageInput& is) {
+    return model_options(was.options) == model_options(is.options) &&
+           geometry(was.scene) == geometry(is.scene) &&
+           same(was.scene.objects, is.scene.objects, &Object::name) &&  // in warnings
+           same(was.scene.materials, is.scene.materials, &Material::emits) &&
+           same(was.scene.lamps, is.scene.lamps, place);
+}
+
+bool same_direct_light_input(const StageInput& was, const StageInput& is) {
+    // What IMPLICIT takes from shadow rays: emissive meshes and area lamps.
+    const bool all = is.options.direct_light == DirectLightMode::kExplicit;
+    const auto same_light = [all](const Lamp& a, const Lamp& b) {
+        return (!all && b.type == LampType::kArea) || light(a) == light(b);
+    };
+    return was.options.direct_light == is.options.direct_light &&
+           std::ranges::equal(was.scene.lamps, is.scene.lamps, same_light) &&
+           (!all || same_emission(was.scene, is.scene));
+}
+
+bool same_solve_input(const StageInput& was, const StageInput& is) {
+    const auto solving = [](const Options& o) {
+        return std::tie(o.direct_light, o.iterations, o.solver);
+    };
+    return solving(was.options) == solving(is.options) && same_albedo(was.scene, is.scene) &&
+           same_emission(was.scene, is.scene) &&
+           same(was.scene.lamps, is.scene.lamps, &Lamp::power);  // area lamps that emit along links
+}
+
+}  // namespace antiradiance

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What each stage of a render reads of the scene and the options. A stage's result can be kept when
+// the function here that is named after it finds no difference, and all stages before it were kept.
+//
+// The values themselves are compared, not hashes of them: a wrong "the same" would be a wrong
+// picture. Only what a stage reads counts, so that a lamp that is dimmed builds no new hierarchy.
+#pragma once
+
+#include "pipeline/options.h"
+#include "scene/scene.h"
+
+namespace antiradiance {
+
+struct StageInput {
+    Scene scene;  // valid (see validate())
+    Options options;
+    bool film_transparent = false;
+};
+
+[[nodiscard]] bool same_model_input(const StageInput& was, const StageInput& is);
+[[nodiscard]] bool same_direct_light_input(const StageInput& was, const StageInput& is);
+[[nodiscard]] bool same_solve_input(const StageInput& was, const StageInput& is);
+
+}  // namespace antiradiance

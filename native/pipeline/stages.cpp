@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/stages.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "hierarchy/patch_materials.h"
+#include "pipeline/choose_solver.h"
+#include "pipeline/stopwatch.h"
+#include "pipeline/transport_input.h"
+
+namespace antiradiance {
+
+namespace {
+
+// A render goes through the rows from the first to the last.
+struct Stage {
+    std::string_view name;  // in the report
+    bool (*same_input)(const StageInput& was, const StageInput& is);
+    void (*run)(const StageInput&, StageResults&, Report::Timings&, Progress&);
+    // Figures and warnings, also when kept.
+    void (*describe)(const StageInput&, const StageResults&, Report&);
+    void (*forget)(StageResults&);
+};
+
+void run_model(const StageInput& input, StageResults& results, Report::Timings& timings,
+               Progress& progress) {
+    const Model& model = results.model.emplace(build_model(input.scene, input.options, progress));
+    timings.hierarchy = model.hierarchy_seconds;
+    timings.links = model.links_seconds;
+    timings.visibility = model.visibility_seconds;
+}
+
+void describe_model(const StageInput&, const StageResults& results, Report& report) {
+    const Model& model = *results.model;
+    for (std::size_t n = 0; n < model.tree.size(); ++n) {
+        if (!model.tree.is_cluster(static_cast<NodeId>(n))) ++report.patches;
+    }
+    report.leaves = model.tree.leaves.size();
+    report.links = {model.links.radiance_count, model.links.antiradiance_count,
+                    model.links.links.size(), model.links.bytes()};
+    report.warnings.insert(report.warnings.end(), model.warnings.begin(), model.warnings.end());
+}
+
+void forget_model(StageResults& results) {
+    results.model.reset();
+}
+
+void run_direct_light(const StageInput& input, StageResults& results, Report::Timings& timings,
+                      Progress& progress) {
+    Stopwatch watch;
+    progress.begin_stage("Direct light", 0.45F, 0.6F);
+    const DirectLight& direct =
+        results.direct.emplace(input.scene, results.model->rays, input.options.direct_light);
+    results.leaf_direct = direct.leaf_irradiance(results.model->tree, progress);
+    timings.direct = watch.lap();
+}
+
+void describe_nothing(const StageInput&, const StageResults&, Report&) {}
+
+void forget_direct_light(StageResults& results) {
+    results.direct.reset();
+    results.leaf_direct = {};
+}
+
+void run_solve(const StageInput& input, StageResults& results, Report::Timings& timings,
+               Progress& progress) {
+    Model& model = *results.model;
+    if (model.tree.size() == 0) {
+        results.solve = {"CPU", "", "no light reaches a surface: there is nothing to solve",
+                         0,     0,  true};
+        return;
+    }
+    progress.begin_stage("Solving", 0.6F, 0.75F);
+    average_materials(input.scene, model.tree);
+    const Options& options = input.options;
+    const TransportInput transport =
+        make_transport_input(model.tree, results.leaf_direct, options.direct_light);
+    SolveOptions solve;
+    solve.iterations = options.iterations;
+    SolverRun run = solve_transport(options.solver, transport.problem(model), solve, progress);
+    Solution& solution = run.solution;
+    if (!run.device.warning.empty()) results.solve_warnings.push_back(run.device.warning);
+    if (!solution.converged && options.iterations == 0) {
+        results.solve_warnings.push_back("The solution did not converge (residual " +
+                                         std::to_string(solution.residual) +
+                                         "): lower Direction Bins, or set Visibility to Explicit");
+    }
+    results.solve = {solution.backend,
+                     solution.renderer,
+                     run.device.reason,
+                     solution.iterations,
+                     static_cast<double>(solution.residual),
+                     solution.converged};
+    results.irradiance = std::move(solution.irradiance);
+    results.radiance = std::move(solution.radiance);
+    timings.solve = solution.seconds;
+}
+
+void describe_solve(const StageInput&, const StageResults& results, Report& report) {
+    report.solve = results.solve;
+    report.warnings.insert(report.warnings.end(), results.solve_warnings.begin(),
+                           results.solve_warnings.end());
+}
+
+void forget_solve(StageResults& results) {
+    results.irradiance = {};
+    results.radiance = {};
+    results.solve = {};
+    results.solve_warnings = {};
+}
+
+// A picture goes to whoever asked for it and is made anew each time.
+bool never_same(const StageInput&, const StageInput&) {
+    return false;
+}
+
+void run_display(const StageInput& input, StageResults& results, Report::Timings& timings,
+                 Progress& progress) {
+    if (!input.scene.has_camera) return;
+    Stopwatch watch;
+    progress.begin_stage("Display", 0.75F, 1);
+    results.shown = results.display.make_picture(
+        input.options.solver,
+        {input.scene, results.model->rays, results.model->tree, results.model->links, false,
+         *results.direct, results.leaf_direct, results.irradiance, results.radiance,
+         input.film_transparent},
+        input.options.resolved_display(), progress);
+    timings.display = watch.lap();
+}
+
+void describe_display(const StageInput& input, const StageResults& results, Report& report) {
+    const DisplayRun& run = results.shown;
+    report.display = {std::string(item_of(input.options, "display")), run.backend, run.renderer};
+    if (!run.device.warning.empty()) report.warnings.push_back(run.device.warning);
+}
+
+void forget_display(StageResults& results) {
+    results.shown = {};
+}
+
+constexpr std::array kStages{
+    Stage{"model", same_model_input, run_model, describe_model, forget_model},
+    Stage{"direct_light", same_direct_light_input, run_direct_light, describe_nothing,
+          forget_direct_light},
+    Stage{"solve", same_solve_input, run_solve, describe_solve, forget_solve},
+    Stage{"display", never_same, run_display, describe_display, forget_display},
+};
+
+}  // namespace
+
+void Stages::forget_changed(const StageInput& input) {
+    const auto done = std::span(kStages).first(done_);
+    const auto changed = std::ranges::find_if_not(
+        done, [&](const Stage& stage) { return stage.same_input(input_, input); });
+    done_ = static_cast<std::size_t>(changed - done.begin());
+    // Later ones borrow from earlier ones. The one after the done ones may have failed half way.
+    for (std::size_t i = kStages.size(); i-- > done_;)
+        kStages[i].forget(results_);
+}
+
+Picture Stages::run(StageInput input, Progress& progress, Report& report) {
+    forget_changed(input);
+    input_ = std::move(input);
+    for (std::size_t i = 0; i < kStages.size(); ++i) {
+        const bool kept = i < done_;
+        report.stages.push_back({std::string(kStages[i].name), kept ? "kept" : "run"});
+        if (!kept) {
+            kStages[i].run(input_, results_, report.timings_s, progress);
+            done_ = i + 1;
+        }
+        kStages[i].describe(input_, results_, report);
+    }
+    return std::move(results_.shown.picture);
+}
+
+}  // namespace antiradiance
