@@ -6,7 +6,7 @@ import traceback
 import bpy
 import numpy as np
 
-from . import compat, core, render_log
+from . import compat, core, render_log, sessions
 from .camera import CameraError, frame_of, set_camera
 from .properties import option_values
 from .sync import SceneWriter, SyncCancelled
@@ -28,7 +28,7 @@ class AntiradianceEngine(bpy.types.RenderEngine):
     bl_use_shading_nodes_custom = False
 
     # There is no __init__: Blender calls it once or twice depending on its version.
-    _session = None  # lives as long as the engine: with Persistent Data, all frames of an animation
+    _sessions = None  # (scene, view layer) -> the core's session
 
     def update_render_passes(self, scene, view_layer):
         for name, (switch, _channels, ids, kind, _key) in PASSES.items():
@@ -76,10 +76,10 @@ class AntiradianceEngine(bpy.types.RenderEngine):
                     pictures[key].reshape(height, width, render_pass.channels)))
         self.end_result(result)
 
-    def session(self):
-        if self._session is None:
-            self._session = core.native.Session()
-        return self._session
+    def session(self, depsgraph):
+        if self._sessions is None:
+            self._sessions = {}
+        return sessions.session_of(self._sessions, depsgraph)
 
     def _fail(self, depsgraph, failure):
         if isinstance(failure, CameraError) or (
@@ -116,7 +116,7 @@ class RenderJob:
         except Exception as failure:
             self._report_failure(options, failure, time.perf_counter() - begin)
             raise
-        result = self._engine.session().render(
+        result = self._engine.session(self._depsgraph).render(
             scene, options, progress=self._progress, cancelled=self._cancelled,
             sync_seconds=time.perf_counter() - begin,
             film_transparent=self._depsgraph.scene.render.film_transparent)

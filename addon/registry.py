@@ -6,7 +6,7 @@ import sys
 import bpy
 
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
-           "sync", "render_log", "properties", "engine", "ui")
+           "sync", "render_log", "sessions", "properties", "engine", "ui")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
     _full = f"{__package__}.{_name}"
@@ -15,7 +15,7 @@ for _name in MODULES:  # in this order also when Blender reloads its scripts
     else:
         importlib.import_module(_full)
 
-from . import core, engine, properties, render_log, ui  # noqa: E402
+from . import core, engine, properties, render_log, sessions, ui  # noqa: E402
 
 _registered = []  # classes, in the order of registering
 
@@ -33,6 +33,7 @@ def register():
         bpy.types.Scene.antiradiance = bpy.props.PointerProperty(type=group)
     else:
         print(f"Antiradiance: {core.load_error}", file=sys.stderr)
+    sessions.register()
     ui.borrow_panels(engine.AntiradianceEngine.bl_idname)
 
 
@@ -43,4 +44,5 @@ def unregister():
     for cls in reversed(_registered):
         bpy.utils.unregister_class(cls)
     _registered.clear()
+    sessions.unregister()
     render_log.clear()

@@ -130,6 +130,7 @@ def draw_figures(layout, report):
         ("Solver", solve["renderer"] or solve["backend"]),
         ("Display", display["renderer"] or display["backend"]),
         ("Time", f"{times['total']:.1f} s (solve {times['solve']:.1f} s)"),
+        ("Kept", kept_stages(report) or "nothing"),
         ("Peak Memory", f"{report['peak_memory_bytes'] / 2**20:,.0f} MiB"),
     )
     grid = layout.box().column(align=True)
@@ -139,6 +140,12 @@ def draw_figures(layout, report):
         left.alignment = "RIGHT"
         left.label(text=label)
         split.label(text=value)
+
+
+def kept_stages(report):
+    """Names of the stages that an earlier render had done, "" if there are none."""
+    return ", ".join(name.replace("_", " ") for name, what in report["stages"].items()
+                     if what == "kept")
 
 
 def draw_message(layout, context, text, icon):

@@ -188,7 +188,8 @@ py::dict visibility_error(const Scene& scene, const py::dict& option_values, int
 }  // namespace
 
 void bind_session(py::module_& module) {
-    py::class_<Session>(module, "Session", "Renders scenes; keeps the solution between renders")
+    py::class_<Session>(module, "Session",
+                        "Renders scenes; keeps from one render to the next what does not change")
         .def(py::init<>())
         .def("render", &render, "scene"_a, "options"_a, "progress"_a = py::none(),
              "cancelled"_a = py::none(), "sync_seconds"_a = 0.0, "film_transparent"_a = false,

@@ -259,6 +259,7 @@ REPORT = {
     "solve": {"backend": str, "renderer": str, "iterations": int, "residual": NUMBER,
               "converged": bool, "reason": str},
     "display": {"mode": str, "backend": str, "renderer": str},
+    "stages": dict.fromkeys(["model", "direct_light", "solve", "display"], str),
     "timings_s": dict.fromkeys(["sync", "hierarchy", "links", "visibility", "direct", "solve",
                                 "display", "total"], NUMBER),
     "peak_memory_bytes": int,
