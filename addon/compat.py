@@ -82,6 +82,15 @@ def write_pass(render_pass, pixels: np.ndarray):
         render_pass.rect.foreach_set(pixels.reshape(width * height, channels))  # 3.x: pixel by row
 
 
+def exact_file_settings(image_settings) -> dict:
+    """name -> value, in the order to set them: a file that holds linear floats as they are."""
+    values = {"file_format": "OPEN_EXR", "color_mode": "RGBA", "color_depth": "32",
+              "exr_codec": "ZIP", "color_management": "FOLLOW_SCENE"}
+    if hasattr(image_settings, "media_type"):  # 5.0: image or video, which sets the formats
+        return {"media_type": "IMAGE", **values}
+    return values
+
+
 # Blender's own panels that show what this engine reads but that name the engines they are for.
 # Panels that allow BLENDER_RENDER are taken as they are (ui.py); these are for EEVEE alone.
 BORROWED_PANELS = (

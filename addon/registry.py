@@ -6,7 +6,8 @@ import sys
 import bpy
 
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
-           "sync", "render_log", "sessions", "properties", "engine", "ui")
+           "sync", "render_log", "sessions", "properties", "engine", "ui",
+           "difference")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
     _full = f"{__package__}.{_name}"
@@ -15,7 +16,7 @@ for _name in MODULES:  # in this order also when Blender reloads its scripts
     else:
         importlib.import_module(_full)
 
-from . import core, engine, properties, render_log, sessions, ui  # noqa: E402
+from . import core, difference, engine, properties, render_log, sessions, ui  # noqa: E402
 
 _registered = []  # classes, in the order of registering
 
@@ -25,12 +26,14 @@ def register():
     if core.native is not None:
         group = properties.make_group(core.native.options_schema())
         classes.append(group)
-    classes += [*engine.CLASSES, *(ui.CLASSES if core.native else ui.CLASSES_WITHOUT_CORE)]
+    classes += engine.CLASSES
+    classes += [*ui.CLASSES, *difference.CLASSES] if core.native else ui.CLASSES_WITHOUT_CORE
     for cls in classes:
         bpy.utils.register_class(cls)
         _registered.append(cls)
     if core.native is not None:
         bpy.types.Scene.antiradiance = bpy.props.PointerProperty(type=group)
+        difference.register_properties()
     else:
         print(f"Antiradiance: {core.load_error}", file=sys.stderr)
     sessions.register()
@@ -40,6 +43,7 @@ def register():
 def unregister():
     ui.return_panels(engine.AntiradianceEngine.bl_idname)
     if hasattr(bpy.types.Scene, "antiradiance"):
+        difference.unregister_properties()
         del bpy.types.Scene.antiradiance
     for cls in reversed(_registered):
         bpy.utils.unregister_class(cls)

@@ -26,6 +26,15 @@ const Element* borrow(const pybind11::array& array, const Shape& shape, const st
     return static_cast<const Element*>(array.data());
 }
 
+// (height, width[, channels]) of an image's elements, copied. Row 0 stays first.
+template <typename Element>
+pybind11::array_t<float> image(const std::vector<Element>& pixels, int width, int height) {
+    constexpr pybind11::ssize_t kChannels = sizeof(Element) / sizeof(float);
+    Shape shape{height, width};
+    if (kChannels > 1) shape.push_back(kChannels);
+    return pybind11::array_t<float>(shape, reinterpret_cast<const float*>(pixels.data()));
+}
+
 // A row-major 4x4 of any number type.
 mat4 to_matrix(const pybind11::handle& rows, const std::string& what);
 

@@ -6,8 +6,9 @@
 
 namespace antiradiance {
 
-void bind_schema(pybind11::module_& module);   // options_schema
-void bind_scene(pybind11::module_& module);    // Scene
-void bind_session(pybind11::module_& module);  // Session, compare_visibility, ...
+void bind_schema(pybind11::module_& module);      // options_schema
+void bind_scene(pybind11::module_& module);       // Scene
+void bind_session(pybind11::module_& module);     // Session, compare_visibility, ...
+void bind_difference(pybind11::module_& module);  // luminance_difference
 
 }  // namespace antiradiance

@@ -9,4 +9,5 @@ PYBIND11_MODULE(_antiradiance, module) {
     antiradiance::bind_schema(module);
     antiradiance::bind_scene(module);
     antiradiance::bind_session(module);
+    antiradiance::bind_difference(module);
 }

@@ -127,21 +127,12 @@ Options to_options(const py::dict& values) {
     return options;
 }
 
-template <typename Element>
-py::array_t<float> image(const std::vector<Element>& pixels, const Picture& picture) {
-    constexpr py::ssize_t kChannels = sizeof(Element) / sizeof(float);
-    std::vector<py::ssize_t> shape{picture.height, picture.width};
-    if (kChannels > 1) {
-        shape.push_back(kChannels);
-    }
-    return py::array_t<float>(shape, reinterpret_cast<const float*>(pixels.data()));
-}
-
 py::dict to_dict(const RenderResult& result) {
+    const Picture& picture = result.picture;
     return py::dict("cancelled"_a = false,
-                    "combined"_a = image(result.picture.combined, result.picture),
-                    "depth"_a = image(result.picture.depth, result.picture),
-                    "normal"_a = image(result.picture.normal, result.picture),
+                    "combined"_a = image(picture.combined, picture.width, picture.height),
+                    "depth"_a = image(picture.depth, picture.width, picture.height),
+                    "normal"_a = image(picture.normal, picture.width, picture.height),
                     "report"_a = result.report.to_json(), "warnings"_a = result.report.warnings);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "tools/difference_command.h"
 #include "tools/render_command.h"
 
 namespace {
@@ -17,6 +18,7 @@ int run(int argc, char** argv) {
     CLI::App app{"Radiosity with antiradiance, without Blender", "antiradiance"};
     app.require_subcommand(1);
     antiradiance::add_render_command(app);
+    antiradiance::add_difference_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

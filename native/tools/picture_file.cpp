@@ -57,6 +57,11 @@ Texture read_texture(const std::string& path) {
     const auto input = OIIO::ImageInput::open(path, &hints);
     if (!input) throw SceneError(OIIO::geterror());
     const OIIO::ImageSpec& spec = input->spec();
+    if (spec.nchannels > 4) {
+        throw SceneError(path + " has " + std::to_string(spec.nchannels) +
+                         " channels, of which none is known to be the colour: save it as a plain "
+                         "picture, without layers or depth");
+    }
     const auto width = static_cast<std::size_t>(spec.width);
     const auto height = static_cast<std::size_t>(spec.height);
     const auto channels = static_cast<std::size_t>(spec.nchannels);

@@ -15,6 +15,7 @@
 #include "tools/obj_scene.h"
 #include "tools/option_flags.h"
 #include "tools/picture_file.h"
+#include "tools/picture_flag.h"
 #include "tools/terminal.h"
 
 namespace antiradiance {
@@ -159,16 +160,7 @@ void add_render_command(CLI::App& app) {
                     "Wavefront OBJ with MTL: Kd (map_Kd) is the albedo, Ke (map_Ke) the emitted "
                     "radiance in W/(m2 sr)")
         ->required();
-    sub->add_option("-o,--output", command->picture,
-                    "Picture to write, .exr (linear) or .png (sRGB); without it the light is "
-                    "solved and reported only")
-        ->type_name("PICTURE")
-        ->check(CLI::Validator(
-            [](const std::string& path) {
-                return PictureFile::has_known_extension(path) ? std::string()
-                                                              : path + " must end in .exr or .png";
-            },
-            ""));
+    add_picture_flag(*sub, command->picture, "without it the light is solved and reported only");
     sub->add_option("--scale", command->scale,
                     "Metres a unit of the file; OBJ files do not say what theirs is")
         ->check(CLI::Range(1e-6, 1e6))

@@ -20,6 +20,7 @@ REPORT_KEYS = {
     "display": {"mode", "backend", "renderer"},
     "timings_s": {"sync", "hierarchy", "links", "visibility", "direct", "solve", "display",
                   "total"},
+    "stages": {"model", "direct_light", "solve", "display"},
     "peak_memory_bytes": None,
     "warnings": None,
     "error": None,
@@ -181,6 +182,9 @@ def test_every_option_of_the_engine_has_a_flag(tool, addon_folder, monkeypatch):
     ["render", "ROOM", "-o", "picture.jpg"],
     ["render", "ROOM", "--camera-eye", "0", "0", "1"],
     ["render", "ROOM", "--resolution", "0", "10"],
+    ["difference"],
+    ["difference", "a.exr"],
+    ["difference", "a.exr", "b.exr", "-o", "c.jpg"],
 ])
 def test_wrong_usage(tool, room, arguments):
     result = tool(*[room if argument == "ROOM" else argument for argument in arguments])
@@ -238,6 +242,61 @@ def test_all_problems_at_once(tool, room, tmp_path):
     message = failure(tool("render", room, "-o", tmp_path / "no" / "a.png"))
     for part in ("line 3: 'v'", "gone.png", "needs a camera", "picture can't be written"):
         assert part in message
+
+
+@pytest.fixture
+def picture(tmp_path):
+    """picture(name, values) -> a linear .exr; values: (h, w, channels)"""
+
+    def write(name, values):
+        values = np.asarray(values, dtype=np.float32)
+        height, width, channels = values.shape
+        buffer = oiio.ImageBuf(oiio.ImageSpec(width, height, channels, oiio.FLOAT))
+        buffer.set_pixels(oiio.ROI(), values)
+        assert buffer.write(str(tmp_path / name)), buffer.geterror()
+        return tmp_path / name
+
+    return write
+
+
+def test_difference(tool, picture, tmp_path):
+    """Above: equal and darker; below: brighter, and brighter beyond the scale."""
+    first = picture("first.exr", np.full((2, 2, 3), [0.2, 0.2, 0.2]))
+    second = picture("second.exr", [[[0.2] * 3, [0.18] * 3], [[0.22] * 3, [0.9] * 3]])
+    path = tmp_path / "difference.png"
+    result = tool("difference", first, second, "-o", path)
+    assert result.returncode == DONE, result.stderr
+
+    def shown(linear):
+        return 1.055 * linear ** (1 / 2.4) - 0.055
+
+    less, more = 4 * (shown(0.2) - shown(0.18)), 4 * (shown(0.22) - shown(0.2))
+    wanted = [[[0, 0, 0, 1], [less, 0, 0, 1]], [[0, more, 0, 1], [0, 1, 0, 1]]]
+    assert read_picture(path) == pytest.approx(np.array(wanted), abs=0.5 / 255 + 1e-6)
+    figures = json.loads(result.stdout)
+    assert figures == pytest.approx({
+        "mean_first": 0.2, "mean_second": 0.375, "largest": 0.7,
+        "relative_rms": ((0.02**2 + 0.02**2 + 0.7**2) / 4) ** 0.5 / 0.2})
+
+
+def test_difference_to_itself(tool, picture):
+    path = picture("picture.exr", np.random.default_rng(1).random((3, 4, 4)))
+    figures = json.loads(tool("difference", path, path).stdout)
+    assert figures["relative_rms"] == figures["largest"] == 0
+    assert figures["mean_first"] == figures["mean_second"] > 0
+
+
+def test_difference_of_what_cannot_be_compared(tool, picture, tmp_path):
+    small, large = picture("s.exr", np.ones((2, 3, 3))), picture("l.exr", np.ones((4, 3, 3)))
+    deep = picture("deep.exr", np.ones((2, 3, 5)))
+    gone, output = tmp_path / "gone.exr", tmp_path / "d.png"
+    message = failure(tool("difference", small, large, "-o", output))
+    assert "3 x 2" in message and "3 x 4" in message
+    assert "gone.exr" in failure(tool("difference", small, gone, "-o", output))
+    assert "5 channels" in failure(tool("difference", small, deep, "-o", output))
+    assert not output.exists()
+    unwritable = tmp_path / "no" / "d.png"
+    assert "No such file" in failure(tool("difference", small, small, "-o", unwritable))
 
 
 def test_interrupt_cancels(binary, room, tmp_path):
