@@ -40,30 +40,7 @@ SAMPLES = {"corridor": 400, "desks": 350, "japanese_room": 400, "office": 400, "
 
 sys.path.insert(0, str(IMAGES))
 from compare import block_means, CLIP, DEFAULT_BLOCK, read_rgb  # noqa: E402
-
-
-def set_up_cycles(scene, samples, seed, percentage):
-    """An unbiased picture: no denoiser, no clamping, no thresholds, all the bounces there are."""
-    scene.render.engine = "CYCLES"
-    scene.render.resolution_percentage = percentage
-    scene.render.film_transparent = False
-    scene.render.use_compositing = False
-    scene.render.use_sequencer = False
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.samples = samples
-    cycles.seed = seed
-    cycles.use_adaptive_sampling = False
-    cycles.use_denoising = False
-    cycles.sample_clamp_direct = 0.0
-    cycles.sample_clamp_indirect = 0.0
-    cycles.light_sampling_threshold = 0.0
-    cycles.blur_glossy = 0.0
-    cycles.max_bounces = 128
-    cycles.diffuse_bounces = 128
-    # A pixel is the mean over its own area, so that block means of pixels are exact.
-    cycles.pixel_filter_type = "BOX"
-    cycles.filter_width = 1.0
+from unbiased_cycles import set_up_cycles  # noqa: E402
 
 
 def write_settings(scene, path, depth):
@@ -80,7 +57,8 @@ def render(name, samples, seed, percentage, folder):
     """(height, width, 3) linear RGB of the scene and the seconds that the render took."""
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{name}.blend"))
     scene = bpy.context.scene
-    set_up_cycles(scene, samples, seed, percentage)
+    set_up_cycles(scene, samples, seed)
+    scene.render.resolution_percentage = percentage
     path = Path(folder) / f"{name}_{seed}.exr"
     write_settings(scene, path, "32")
     start = time.monotonic()
