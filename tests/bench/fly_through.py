@@ -142,8 +142,9 @@ def clipped(pictures, limit):
 
 def errors(pictures, references_a, references_b):
     """{block: (error of the pictures, of Cycles at the references' samples)}, relative RMS"""
-    mean = np.mean([[read_rgb(p) for p in (a, b)] for a, b in zip(references_a, references_b)])
-    limit = CLIP * np.median([read_rgb(path) for path in (*references_a, *references_b)])
+    references = [*references_a, *references_b]
+    limit = CLIP * np.median([read_rgb(path) for path in references])
+    mean = np.mean(clipped(references, limit))
     result = {}
     for block in BLOCKS:
         x, a, b = (np.array([block_means(p, block) for p in clipped(paths, limit)])
@@ -163,7 +164,8 @@ def relative_change(first, second):
 
 
 def flicker(scene, folder, frame, samples):
-    """The change of the picture when the camera moves by STEP: of what is seen, and of noise."""
+    """The change of the picture when the camera moves by STEP: of what is seen, and of noise.
+    With another seed a frame, Cycles' falls with the root of its samples."""
     add_step(scene, frame)
     use_engine(scene)
     result = {"samples_of_cycles": samples,
