@@ -12,9 +12,20 @@ namespace antiradiance {
 
 namespace {
 
-constexpr float kNoDepth = 1e10F;     // Blender's value for nothing
-constexpr std::size_t kBlock = 32;    // pixels; some ms
-constexpr int kMostDirectRays = 256;  // for each light and fragment
+constexpr float kNoDepth = 1e10F;   // Blender's value for nothing
+constexpr std::size_t kBlock = 32;  // pixels; some ms
+
+// `count` of the points, of a pixel's samples, which come in rows, those along a diagonal: one of
+// each stretch, later ones of later stretches. All of them when they are no more.
+std::span<const SurfacePoint> spread_choice(std::span<const SurfacePoint> points, std::size_t count,
+                                            std::vector<SurfacePoint>& chosen) {
+    if (points.size() <= count) return points;
+    const std::size_t stretch = points.size() / count;
+    chosen.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        chosen.push_back(points[i * stretch + i % stretch]);
+    return chosen;
+}
 
 // A fragment while its pixel's samples come in.
 struct OpenFragment {
@@ -131,7 +142,14 @@ private:
         return fragment;
     }
 
-    [[nodiscard]] Fragment close(const OpenFragment& open) const {
+    [[nodiscard]] vec3 direct_irradiance(const OpenFragment& open) {
+        const auto points = spread_choice(
+            open.points, static_cast<std::size_t>(in_.direct_samples), chosen_points_);
+        return in_.direct.irradiance(points, in_.direct_samples, expected(open.leaf),
+                                     hash_u32(static_cast<std::uint32_t>(pixel_)));
+    }
+
+    [[nodiscard]] Fragment close(const OpenFragment& open) {
         const auto count = static_cast<float>(open.points.size());
         Fragment f;
         f.pixel = static_cast<std::uint32_t>(pixel_);
@@ -146,11 +164,7 @@ private:
         f.shading_normal = length > 0 ? f.shading_normal / length : f.normal;
         f.albedo = open.albedo / count;
         f.light = open.emission / count;
-        if (max_component(f.albedo) > 0) {
-            f.light += f.albedo * kInvPi *
-                       in_.direct.irradiance(open.points, kMostDirectRays, expected(open.leaf),
-                                             hash_u32(static_cast<std::uint32_t>(pixel_)));
-        }
+        if (max_component(f.albedo) > 0) f.light += f.albedo * kInvPi * direct_irradiance(open);
         return f;
     }
 
@@ -163,6 +177,7 @@ private:
     std::size_t pixel_ = 0;
     std::vector<OpenFragment> open_;  // the first open_count_ are of this pixel
     std::size_t open_count_ = 0;
+    std::vector<SurfacePoint> chosen_points_;  // scratch
 };
 
 }  // namespace

@@ -51,6 +51,17 @@ std::vector<OptionInfo> make_schema() {
                     "sun lamps stay on shadow rays"}},
          .access = access_to<&Options::direct_light>()});
     schema.push_back(
+        {.name = "direct_samples",
+         .label = "Direct Samples",
+         .tooltip = "Shadow rays for each light of a pixel; a pixel whose light is still uncertain "
+                    "then gets up to 16 times as many",
+         .type = OptionType::kInt,
+         .min = 4,
+         .max = 1024,
+         .soft_min = 4,
+         .soft_max = 128,
+         .access = access_to<&Options::direct_samples>()});
+    schema.push_back(
         {.name = "max_patch_size",
          .label = "Max Patch Size",
          .tooltip = "Longest edge of a patch before the links ask for smaller ones; 0 takes it "
@@ -249,8 +260,8 @@ auto find_option(std::string_view name) {
 }  // namespace
 
 DisplayOptions Options::resolved_display() const {
-    DisplayOptions result{display,          shooting_level, shooting_visibility,
-                          shooting_samples, bin_map_size,   interleave};
+    DisplayOptions result{display,      shooting_level, shooting_visibility, shooting_samples,
+                          bin_map_size, interleave,     direct_samples};
     if (shooting_visibility == ShootingVisibility::kAuto) {
         result.shooting_visibility = visibility == Visibility::kExplicit
                                          ? ShootingVisibility::kRays

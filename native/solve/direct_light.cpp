@@ -48,12 +48,13 @@ bool DirectLight::any() const {
     return !impl_->emitters.empty();
 }
 
-vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int max_rays, float expected,
+vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int samples, float expected,
                              std::uint32_t seed) const {
     if (points.empty() || !any()) return vec3(0);
     IrradianceEstimate estimate(*impl_, points, seed);
+    const int max_rays = kMostSamplesFactor * samples;
     const auto count = static_cast<int>(points.size());
-    int passes = (kFirstRays + count - 1) / count;
+    int passes = (samples + count - 1) / count;
     int rays = 0;
     while (passes > 0) {
         for (int i = 0; i < passes; ++i)

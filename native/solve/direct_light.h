@@ -23,6 +23,8 @@ struct SurfacePoint {
 
 class DirectLight {
 public:
+    static constexpr int kMostSamplesFactor = 16;
+
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links.
     // Borrows both, which must outlive it.
     DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode);
@@ -32,12 +34,13 @@ public:
     [[nodiscard]] bool any() const;
 
     // Mean irradiance, W/m2, over points of one surface that lie close together (those of a pixel).
-    // Takes about 16 shadow rays for each light, up to `max_rays` (16..1024) where its shadow edge
-    // crosses the points; a large number of lights shares them by the light they can bring.
+    // Takes about `samples` shadow rays for each light, at least one from each point, and up to
+    // kMostSamplesFactor times `samples` where its shadow edge crosses the points; a large number
+    // of lights shares them by the light they can bring.
     // expected: luminance of what the surroundings get, W/m2, or 0. Points that seem to get less
     // than half of it look for hidden lights with all rays: through a slit, most pixels would miss
     // a light and some find it. Deterministic in `seed`. From any thread.
-    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points, int max_rays,
+    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points, int samples,
                                   float expected, std::uint32_t seed) const;
 
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes

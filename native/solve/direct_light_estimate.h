@@ -23,8 +23,6 @@ inline constexpr std::size_t kMostEmittersEach = 8;
 inline constexpr double kOwnRays = 4;
 // Choices among many emitters in one pass, divided over the points.
 inline constexpr std::uint32_t kChoices = 64;
-// Rays for each emitter before the first look at the error.
-inline constexpr int kFirstRays = 16;
 // Rays of a leaf for an emitter that seems to be hidden altogether.
 inline constexpr int kLeafShadowRays = 64;
 // Standard error at which rays end, relative to the irradiance: an eye sees about 0.02.

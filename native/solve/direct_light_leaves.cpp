@@ -12,7 +12,8 @@ namespace antiradiance {
 namespace {
 
 constexpr std::uint32_t kStrata = 16;  // of PatchTree::exposed_mask, 4 x 4
-constexpr int kMostRays = 256;         // for each emitter and leaf
+constexpr int kFirstRays = 16;         // for each emitter and leaf, before a look at the error
+constexpr int kMostRays = 256;
 constexpr std::size_t kBlock = 16;     // leaves; a few ms
 
 // One point in every exposed stratum of a leaf; `pass` moves it inside its stratum.

@@ -315,4 +315,5 @@ def test_options_are_those_of_the_issue(in_blender):
         "shooting_level": ["CUT", ["LEAVES", "PARENTS", "CUT"]],
         "shooting_visibility": ["AUTO", ["AUTO", "ANTIRADIANCE", "RAYS"]],
         "shooting_samples": [8, null], "interleave": [1, null], "bin_map_size": [256, null],
+        "direct_samples": [16, null],
         "report_path": ["", null]}""")

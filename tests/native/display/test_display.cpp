@@ -48,7 +48,8 @@ struct Stage {
           irradiance(tree.size(), vec3(0)) {}
 
     GBuffer gbuffer(int samples_per_axis = 4, bool transparent = false) {
-        return make_gbuffer({scene, rays, tree, direct, irradiance, transparent, samples_per_axis},
+        return make_gbuffer({scene, rays, tree, direct, irradiance, transparent, samples_per_axis,
+                             16},
                             progress, {0, 1});
     }
     Picture picture(bool transparent = false) {

@@ -19,11 +19,11 @@ Scene empty_stage(const Lamp& lamp) {
     return scene;
 }
 
-vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int rays = 1024) {
+vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int samples = 64) {
     const RayScene ray_scene(scene);
     const DirectLight light(scene, ray_scene, DirectLightMode::kExplicit);
     const SurfacePoint point{p, n, n};
-    return light.irradiance({&point, 1}, rays, 0, 7);
+    return light.irradiance({&point, 1}, samples, 0, 7);
 }
 
 Lamp lamp_at(LampType type, const vec3& position, float power) {
@@ -194,7 +194,7 @@ vec3 pixel_center(float i, float j) {
 float mean_over_seeds(const DirectLight& light, std::span<const SurfacePoint> points, int seeds) {
     float sum = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-        sum += light.irradiance(points, 1024, 0, static_cast<std::uint32_t>(seed)).x;
+        sum += light.irradiance(points, 64, 0, static_cast<std::uint32_t>(seed)).x;
     }
     return sum / static_cast<float>(seeds);
 }
