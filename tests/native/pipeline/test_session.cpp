@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -196,6 +197,27 @@ TEST(Session, AReportOfACallerThatHadNoScene) {
     EXPECT_EQ(json["error"], "no camera");
     EXPECT_EQ(json["warnings"], nlohmann::json({"a warning"}));
     EXPECT_EQ(json["timings_s"]["sync"].get<double>(), 1.5);
+}
+
+// As above, in final shooting: with explicit direct light the walls shoot what they reflect, and the
+// shadow rays bring what they emit. Either of them twice would add half of the light.
+TEST(Session, AFurnaceFillsThePictureInFinalShooting) {
+    for (const Visibility visibility : {Visibility::kExplicit, Visibility::kImplicit}) {
+        for (const DirectLightMode direct :
+             {DirectLightMode::kExplicit, DirectLightMode::kImplicit}) {
+            Options options = quick();
+            options.display = DisplayMode::kFinalShooting;
+            options.visibility = visibility;
+            options.direct_light = direct;
+            const RenderResult result = render(furnace(), options);
+            ASSERT_EQ(result.picture.combined.size(), 24U * 16U);
+            double mean = 0;
+            for (const vec4& p : result.picture.combined)
+                mean += p.x / (24.0 * 16.0);
+            std::cout << "mean of the picture: " << mean / 2 << " of the answer\n";
+            EXPECT_NEAR(mean / 2, 1, 0.002);  // measured .0002
+        }
+    }
 }
 
 TEST(Session, ASceneWithoutLightIsBlackWithAWarning) {
