@@ -48,7 +48,10 @@ std::vector<OptionInfo> make_schema() {
                     "Lamps and emissive meshes by shadow rays; links carry the indirect light"},
                    {"IMPLICIT", "Implicit",
                     "Emissive meshes and area lamps emit along links as patches; point, spot and "
-                    "sun lamps stay on shadow rays"}},
+                    "sun lamps stay on shadow rays"},
+                   {"SHADOW_MAPS", "Shadow Maps",
+                    "As Explicit, but shadows are looked up in depth images that OpenGL draws; the "
+                    "soft shadows of large lights have steps"}},
          .access = access_to<&Options::direct_light>()});
     schema.push_back(
         {.name = "direct_samples",

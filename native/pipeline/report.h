@@ -16,6 +16,10 @@ struct Report {
         std::size_t bytes = 0;                                  // of the sorted link mesh
     } links;
     struct {
+        std::size_t shadow_maps = 0;  // images; 0: shadow rays
+        std::size_t bytes = 0;        // of the images
+    } direct;
+    struct {
         std::string backend;  // OPENGL or CPU
         std::string renderer;
         std::string reason;  // why this back end

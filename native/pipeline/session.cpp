@@ -78,7 +78,8 @@ Picture render_stages(Scene& scene, const Options& options, bool film_transparen
 
     Stopwatch watch;
     progress.begin_stage("Direct light", 0.45F, 0.6F);
-    const DirectLight direct(scene, model.rays, options.direct_light);
+    const DirectLight direct(scene, model.rays, options.direct_light, progress);
+    report.direct = {direct.maps().images, direct.maps().bytes};
     const std::vector<vec3> leaf_direct = direct.leaf_irradiance(model.tree, progress);
     report.timings_s.direct = watch.lap();
 

@@ -6,11 +6,23 @@
 
 #include "base/random.h"
 #include "solve/direct_light_estimate.h"
+#include "solve/direct_light_maps.h"
 
 namespace antiradiance {
 
-DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode)
-    : impl_(std::make_unique<Impl>(Impl{scene, rays, {}, {}, {}, {}})) {
+std::vector<SurfacePoint> spread_choice(std::span<const SurfacePoint> points, std::size_t count) {
+    if (points.size() <= count) return {points.begin(), points.end()};
+    const std::size_t stretch = points.size() / count;
+    std::vector<SurfacePoint> chosen;
+    chosen.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        chosen.push_back(points[i * stretch + i % stretch]);
+    return chosen;
+}
+
+DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode,
+                         Progress& progress)
+    : impl_(std::make_unique<Impl>(Impl{scene, rays, {}, {}, {}, {}, nullptr})) {
     const float epsilon = rays.epsilon();
     std::vector<EmitterPtr>& emitters = impl_->emitters;
     for (const Lamp& lamp : scene.lamps) {
@@ -19,7 +31,7 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
             emitters.push_back(std::move(emitter));
         }
     }
-    if (mode == DirectLightMode::kExplicit) {
+    if (mode != DirectLightMode::kImplicit) {
         for (EmitterPtr& emitter : make_mesh_emitters(scene, epsilon)) {
             emitters.push_back(std::move(emitter));
         }
@@ -40,9 +52,26 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
     } else {
         impl_->tree = EmitterTree(bounds);
     }
+    if (mode == DirectLightMode::kShadowMaps && any())
+        impl_->mapped = std::make_unique<MappedLight>(*impl_, progress);
 }
 
 DirectLight::~DirectLight() = default;
+
+bool DirectLight::has_maps() const {
+    return impl_->mapped != nullptr;
+}
+
+std::vector<vec3> DirectLight::mapped_irradiance(std::span<const SurfacePoint> points,
+                                                 std::span<const std::uint32_t> ends,
+                                                 Progress& progress, ProgressSpan span) const {
+    return impl_->mapped->irradiance(points, ends, progress, span);
+}
+
+DirectLight::Maps DirectLight::maps() const {
+    if (!has_maps()) return {};
+    return {impl_->mapped->maps().image_count(), impl_->mapped->maps().bytes()};
+}
 
 bool DirectLight::any() const {
     return !impl_->emitters.empty();

@@ -8,6 +8,7 @@
 // there.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,8 @@ inline constexpr int kLeafShadowRays = 64;
 inline constexpr float kPixelTolerance = 0.015F;
 inline constexpr float kLeafTolerance = 0.01F;
 
+class MappedLight;
+
 struct DirectLight::Impl {
     const Scene& scene;
     const RayScene& rays;
@@ -36,6 +39,7 @@ struct DirectLight::Impl {
     std::vector<std::int32_t> always;   // into emitters: each gets its own rays
     std::vector<std::int32_t> in_tree;  // into emitters: the tree's indices
     EmitterTree tree;
+    std::unique_ptr<MappedLight> mapped;  // in mode kShadowMaps, if there is an emitter
 };
 
 class IrradianceEstimate {

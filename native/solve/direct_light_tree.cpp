@@ -140,4 +140,12 @@ void EmitterTree::choose(const ReceiverBounds& receivers, std::uint32_t count, f
     }
 }
 
+std::vector<std::int32_t> EmitterTree::emitters() const {
+    std::vector<std::int32_t> emitters;
+    for (const Node& node : nodes_) {
+        if (node.emitter != kNone) emitters.push_back(node.emitter);
+    }
+    return emitters;
+}
+
 }  // namespace antiradiance

@@ -35,6 +35,9 @@ public:
     void choose(const ReceiverBounds& receivers, std::uint32_t count, float offset,
                 std::vector<EmitterChoice>& choices) const;
 
+    // All emitters, neighbours one after the other.
+    [[nodiscard]] std::vector<std::int32_t> emitters() const;
+
 private:
     struct Node {
         vec3 center{0};

@@ -114,9 +114,9 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     const RenderResult result = render(test::office(), options);
     const nlohmann::json json = file.read();
     EXPECT_EQ(keys(json),
-              std::set<std::string>({"patches", "leaves", "links", "solve", "display", "timings_s",
-                                     "peak_memory_bytes", "warnings", "error"}));
-    // bytes and reason come on top of what was agreed on.
+              std::set<std::string>({"patches", "leaves", "links", "direct", "solve", "display",
+                                     "timings_s", "peak_memory_bytes", "warnings", "error"}));
+    // direct, bytes and reason come on top of what was agreed on.
     EXPECT_EQ(keys(json["links"]),
               std::set<std::string>({"radiance", "antiradiance", "total", "bytes"}));
     EXPECT_EQ(keys(json["solve"]), std::set<std::string>({"backend", "renderer", "reason",
@@ -199,8 +199,8 @@ TEST(Session, AReportOfACallerThatHadNoScene) {
     EXPECT_EQ(json["timings_s"]["sync"].get<double>(), 1.5);
 }
 
-// As above, in final shooting: with explicit direct light the walls shoot what they reflect, and the
-// shadow rays bring what they emit. Either of them twice would add half of the light.
+// As above, in final shooting: with explicit direct light the walls shoot what they reflect, and
+// the shadow rays bring what they emit. Either of them twice would add half of the light.
 TEST(Session, AFurnaceFillsThePictureInFinalShooting) {
     for (const Visibility visibility : {Visibility::kExplicit, Visibility::kImplicit}) {
         for (const DirectLightMode direct :

@@ -23,7 +23,7 @@ const vec3 kY(0, 1, 0);
 
 struct Stage {
     explicit Stage(const Scene& s, DirectLightMode mode = DirectLightMode::kExplicit)
-        : scene(s), rays(scene), light(scene, rays, mode) {}
+        : scene(s), rays(scene), light(scene, rays, mode, progress) {}
     // Mean over a horizontal square around p.
     [[nodiscard]] vec3 at(const vec3& p, const vec3& n = kUp, float size = 0, int samples = 64,
                           std::uint32_t seed = 1) const {
@@ -34,6 +34,7 @@ struct Stage {
         }
         return light.irradiance(points, samples, 0, seed);
     }
+    Progress progress;
     Scene scene;
     RayScene rays;
     DirectLight light;
@@ -274,8 +275,8 @@ class LeafIrradiance : public testing::Test {
 protected:
     std::vector<vec3> solve(const Scene& scene, const PatchTree& tree) {
         const RayScene rays(scene);
-        const DirectLight light(scene, rays, DirectLightMode::kExplicit);
         Progress progress;
+        const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
         return light.leaf_irradiance(tree, progress);
     }
 };
@@ -356,7 +357,8 @@ TEST_F(LeafIrradiance, inner_nodes_stay_zero_and_cancel_works) {
         EXPECT_EQ(e[n].x > 0, tree.is_leaf(static_cast<NodeId>(n)));
     }
     const RayScene rays(scene);
-    const DirectLight light(scene, rays, DirectLightMode::kExplicit);
+    Progress progress;
+    const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
     Progress cancelled(nullptr, [] { return true; });
     cancelled.cancel();
     EXPECT_THROW(std::ignore = light.leaf_irradiance(tree, cancelled), Cancelled);

@@ -21,7 +21,8 @@ Scene empty_stage(const Lamp& lamp) {
 
 vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int samples = 64) {
     const RayScene ray_scene(scene);
-    const DirectLight light(scene, ray_scene, DirectLightMode::kExplicit);
+    Progress progress;
+    const DirectLight light(scene, ray_scene, DirectLightMode::kExplicit, progress);
     const SurfacePoint point{p, n, n};
     return light.irradiance({&point, 1}, samples, 0, 7);
 }
@@ -205,7 +206,8 @@ TEST(DirectLightLamps, agree_with_cycles) {
         SCOPED_TRACE(c.name);
         const Scene scene = empty_stage(c.lamp);
         const RayScene rays(scene);
-        const DirectLight light(scene, rays, DirectLightMode::kExplicit);
+        Progress progress;
+        const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
         std::vector<SurfacePoint> all;
         for (int j = 0; j < 128; ++j) {
             for (int i = 0; i < 128; ++i) {
