@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "solve/direct_light_estimate.h"
 
 namespace antiradiance {
@@ -11,9 +12,9 @@ namespace antiradiance {
 namespace {
 
 constexpr std::uint32_t kMostPoints = 256;  // of all emitters but suns
-constexpr std::uint32_t kMostPointsEach = 64;
+constexpr std::uint32_t kMostPointsEach = 128;
 constexpr std::uint32_t kSunPoints = 16;
-// Emitters beyond this share points: one that shines from both sides needs two.
+// More emitters than this share points; one that shines from both sides needs two.
 constexpr std::size_t kMostEmitters = kMostPoints / 2;
 
 // Share of the light of an emitter's points that arrives.
@@ -41,7 +42,7 @@ float scale_of(const Emitter& emitter, const SurfacePoint& receiver, float share
 
 }  // namespace
 
-EmitterPoints::EmitterPoints(const DirectLight::Impl& light) {
+EmitterPoints::EmitterPoints(const DirectLight::Impl& light) : light_(light) {
     std::vector<std::int32_t> suns;
     std::vector<std::int32_t> others;
     for (const std::int32_t i : light.always) {
@@ -51,46 +52,74 @@ EmitterPoints::EmitterPoints(const DirectLight::Impl& light) {
     // Neighbours in the tree are neighbours in the scene.
     for (const std::int32_t i : light.tree.emitters())
         others.push_back(light.in_tree[static_cast<std::size_t>(i)]);
-    add_some(light, others);
+    if (others.size() <= kMostEmitters) {
+        add_each(others);
+    } else {
+        // Of a closed mesh often one side counts: then there is room for twice as many.
+        add_by_power(others, kMostPoints);
+        if (points_.size() > kMostPoints) add_by_power(others, kMostPoints / 2);
+    }
     for (const std::int32_t i : suns) {
         const Emitter& sun = *light.emitters[static_cast<std::size_t>(i)];
         add(sun, sun.is_point() ? 1 : kSunPoints, 1);
     }
 }
 
-void EmitterPoints::add(const Emitter& emitter, std::uint32_t count, float share) {
-    const auto begin = static_cast<std::uint32_t>(points_.size());
-    for (std::uint32_t i = 0; i < count; ++i)
-        points_.push_back(emitter.point(i));
-    groups_.push_back({&emitter, begin, begin + count, share});
+// Whether any of its light may fall on what reflects it: inside a luminous ball, none does.
+bool EmitterPoints::lights_something(const EmitterPoint& point) const {
+    constexpr std::uint32_t kRays = 16;
+    if (point.is_sun()) return true;
+    const Frame frame(point.axis);
+    for (std::uint32_t i = 0; i < kRays; ++i) {
+        const vec3 direction = frame.to_world(cosine_hemisphere(r2_sample(i, kPointSeed)));
+        const RayHit hit = light_.rays.intersect(point.position, direction);
+        if (!hit.hit()) return true;  // as far as so few rays can tell
+        const auto t = static_cast<std::size_t>(hit.triangle);
+        const auto m = static_cast<std::size_t>(light_.scene.triangle_material[t]);
+        if (max_component(light_.scene.materials[m].albedo) > 0) return true;
+    }
+    return false;
 }
 
-void EmitterPoints::add_some(const DirectLight::Impl& light,
-                             std::span<const std::int32_t> emitters) {
-    const auto at = [&](std::int32_t i) -> const Emitter& {
-        return *light.emitters[static_cast<std::size_t>(i)];
-    };
-    if (emitters.size() <= kMostEmitters) {
-        const auto each = static_cast<std::uint32_t>(std::clamp<std::size_t>(
-            kMostPoints / std::max<std::size_t>(emitters.size(), 1), 2, kMostPointsEach));
-        for (const std::int32_t i : emitters)
-            add(at(i), at(i).is_point() ? 1 : each, 1);
-        return;
+void EmitterPoints::add(const Emitter& emitter, std::uint32_t count, float share) {
+    const auto begin = static_cast<std::uint32_t>(points_.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const EmitterPoint point = emitter.point(i);
+        if (lights_something(point)) points_.push_back(point);
     }
+    const auto end = static_cast<std::uint32_t>(points_.size());
+    if (end > begin) groups_.push_back({&emitter, begin, end, share});
+}
+
+void EmitterPoints::add_each(std::span<const std::int32_t> emitters) {
+    const std::size_t each = kMostPoints / std::max<std::size_t>(emitters.size(), 1);
+    const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(each, kMostPointsEach));
+    for (const std::int32_t i : emitters) {
+        const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(i)];
+        add(emitter, emitter.is_point() ? 1 : count, 1);
+    }
+}
+
+// In place of what there is.
+void EmitterPoints::add_by_power(std::span<const std::int32_t> emitters, std::uint32_t choices) {
+    points_.clear();
+    groups_.clear();
+    const auto at = [&](std::int32_t i) -> const Emitter& {
+        return *light_.emitters[static_cast<std::size_t>(i)];
+    };
     double power = 0;
     for (const std::int32_t i : emitters)
         power += at(i).bounds().power;
-    // Choice k falls on the emitter in whose stretch of the power's sum k + 1/2 lies; both sides.
-    constexpr double kChoices = kMostPoints / 2.0;
+    // Choice k falls on the emitter in whose stretch of the power's sum k + 1/2 lies.
     double end = 0;
     for (const std::int32_t i : emitters) {
-        const double expected = at(i).bounds().power / power * kChoices;
+        const double expected = at(i).bounds().power / power * choices;
         const double begin = end;
         end += expected;
-        const auto choices =
-            static_cast<std::uint32_t>(std::floor(end + 0.5) - std::floor(begin + 0.5));
-        if (choices > 0)
-            add(at(i), at(i).is_point() ? 1 : 2 * choices, static_cast<float>(choices / expected));
+        const double chosen = std::floor(end + 0.5) - std::floor(begin + 0.5);
+        if (chosen == 0) continue;
+        const auto count = static_cast<std::uint32_t>(2 * chosen);  // for both sides
+        add(at(i), at(i).is_point() ? 1 : count, static_cast<float>(chosen / expected));
     }
 }
 

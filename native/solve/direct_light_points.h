@@ -17,7 +17,7 @@ namespace antiradiance {
 
 class EmitterPoints {
 public:
-    // Borrows the emitters.
+    // Borrows `light`.
     explicit EmitterPoints(const DirectLight::Impl& light);
 
     [[nodiscard]] std::span<const EmitterPoint> points() const { return points_; }
@@ -33,8 +33,11 @@ private:
         float share;
     };
     void add(const Emitter& emitter, std::uint32_t count, float share);
-    void add_some(const DirectLight::Impl& light, std::span<const std::int32_t> emitters);
+    void add_each(std::span<const std::int32_t> emitters);
+    void add_by_power(std::span<const std::int32_t> emitters, std::uint32_t choices);
+    [[nodiscard]] bool lights_something(const EmitterPoint& point) const;
 
+    const DirectLight::Impl& light_;
     std::vector<EmitterPoint> points_;  // of suns last
     std::vector<Group> groups_;
 };

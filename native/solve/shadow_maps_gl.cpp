@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -24,7 +23,7 @@ using gpu::GlContext;
 using gpu::GlThread;
 using gpu::Program;
 
-// Texels along a side are a power of two within these limits whose images fit into the memory.
+// Texels along a side: within these limits as many as fit into this memory.
 constexpr std::size_t kMapBytes = std::size_t{128} << 20U;
 constexpr int kLeastSize = 64;
 constexpr int kMostSize = 2048;
@@ -91,8 +90,7 @@ private:
 
 int size_for(std::int32_t images) {
     const double texels = static_cast<double>(kMapBytes / sizeof(float)) / images;
-    const auto side = static_cast<unsigned>(std::sqrt(texels));
-    return std::clamp(static_cast<int>(std::bit_floor(side)), kLeastSize, kMostSize);
+    return std::clamp(static_cast<int>(std::sqrt(texels)), kLeastSize, kMostSize);
 }
 
 // Maps of points of one kind on the device.

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "gpu/gl_thread.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
 
@@ -218,6 +219,40 @@ TEST(Session, AFurnaceFillsThePictureInFinalShooting) {
             EXPECT_NEAR(mean / 2, 1, 0.002);  // measured .0002
         }
     }
+}
+
+TEST(Session, ShadowMapsLightAFurnaceAndAreReported) {
+    Options options = quick();
+    options.direct_light = DirectLightMode::kShadowMaps;
+    std::string why_not;
+    if (!gpu::GlThread::shared(why_not)) GTEST_SKIP() << why_not;
+    const RenderResult result = render(furnace(), options);
+    double mean = 0;
+    for (const vec4& p : result.picture.combined)
+        mean += p.x / (24.0 * 16.0);
+    // The walls' light on each other by some dozens of points a wall, in the corners by few.
+    EXPECT_NEAR(mean / 2, 1, 0.02);
+    EXPECT_GT(result.report.direct.shadow_maps, 100U);
+    EXPECT_GT(result.report.direct.bytes, 1U << 20U);
+    EXPECT_EQ(render(furnace(), quick()).report.direct.shadow_maps, 0U);
+}
+
+TEST(Session, ShadowMapsWithoutOpenGlSayWhatToDo) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";  // a fresh process, without a context
+    const auto render_without = [] {
+        setenv("ANTIRADIANCE_NO_OPENGL", "1", 1);
+        Options options = quick();
+        options.direct_light = DirectLightMode::kShadowMaps;
+        try {
+            render(furnace(), options);
+        } catch (const SceneError& e) {
+            std::cerr << e.what();
+            std::exit(0);
+        }
+        std::exit(1);
+    };
+    EXPECT_EXIT(render_without(), testing::ExitedWithCode(0),
+                "Direct Light is Shadow Maps.*switched off.*set Direct Light to Explicit");
 }
 
 TEST(Session, ASceneWithoutLightIsBlackWithAWarning) {
