@@ -22,7 +22,7 @@ std::vector<SurfacePoint> spread_choice(std::span<const SurfacePoint> points, st
 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode,
                          Progress& progress)
-    : impl_(std::make_unique<Impl>(Impl{scene, rays, {}, {}, {}, {}, nullptr})) {
+    : impl_(std::make_unique<Impl>(Impl{scene, rays})) {
     const float epsilon = rays.epsilon();
     std::vector<EmitterPtr>& emitters = impl_->emitters;
     for (const Lamp& lamp : scene.lamps) {
@@ -31,11 +31,11 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
             emitters.push_back(std::move(emitter));
         }
     }
-    if (mode != DirectLightMode::kImplicit) {
-        for (EmitterPtr& emitter : make_mesh_emitters(scene, epsilon)) {
-            emitters.push_back(std::move(emitter));
-        }
-    }
+    MeshEmitters mesh;
+    if (mode != DirectLightMode::kImplicit) mesh = make_mesh_emitters(scene, epsilon);
+    const std::size_t mesh_count = mesh.emitters.size();
+    for (EmitterPtr& emitter : mesh.emitters)
+        emitters.push_back(std::move(emitter));
     std::vector<EmitterBounds> bounds;
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const auto index = static_cast<std::int32_t>(i);
@@ -51,6 +51,11 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
         impl_->in_tree.clear();
     } else {
         impl_->tree = EmitterTree(bounds);
+        impl_->of_triangle = std::move(mesh.of_triangle);
+        const auto first = static_cast<std::int32_t>(bounds.size() - mesh_count);
+        for (std::int32_t& number : impl_->of_triangle) {
+            if (number != kNone) number += first;
+        }
     }
     if (mode == DirectLightMode::kShadowMaps && any())
         impl_->mapped = std::make_unique<MappedLight>(*impl_, progress);

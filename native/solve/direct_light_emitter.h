@@ -49,6 +49,11 @@ public:
     [[nodiscard]] virtual float unshadowed(const SurfacePoint& receiver) const = 0;
     // Called where unshadowed() > 0.
     [[nodiscard]] virtual LightSample sample(const SurfacePoint& receiver, const vec2& u) const = 0;
+    // Density, 1/sr, with which sample() takes a direction to a point of the emitter; 0: not known.
+    [[nodiscard]] virtual float density(const SurfacePoint& /*receiver*/,
+                                        const vec3& /*direction*/) const {
+        return 0;
+    }
     // Null-power bounds for emitters at infinity, which are never chosen among others.
     [[nodiscard]] virtual EmitterBounds bounds() const = 0;
     [[nodiscard]] virtual bool at_infinity() const { return false; }
@@ -85,7 +90,13 @@ using EmitterPtr = std::unique_ptr<Emitter>;
 [[nodiscard]] EmitterPtr make_ellipse_emitter(const Lamp& lamp, float epsilon);
 
 // All emissive polygons. Textured ones are cut until a piece is of nearly one colour.
-[[nodiscard]] std::vector<EmitterPtr> make_mesh_emitters(const Scene& scene, float epsilon);
+struct MeshEmitters {
+    std::vector<EmitterPtr> emitters;
+    // Into emitters: the one that has the whole triangle; kNone: dark or cut into pieces.
+    // #triangles
+    std::vector<std::int32_t> of_triangle;
+};
+[[nodiscard]] MeshEmitters make_mesh_emitters(const Scene& scene, float epsilon);
 
 // A flat convex polygon of constant radiance, emitting from one or both sides.
 class PolygonEmitter final : public Emitter {
@@ -95,6 +106,7 @@ public:
                    bool two_sided, float epsilon);
     [[nodiscard]] float unshadowed(const SurfacePoint& receiver) const override;
     [[nodiscard]] LightSample sample(const SurfacePoint& receiver, const vec2& u) const override;
+    [[nodiscard]] float density(const SurfacePoint& receiver, const vec3& direction) const override;
     [[nodiscard]] EmitterBounds bounds() const override;
     [[nodiscard]] EmitterPoint point(std::uint32_t index) const override;
     [[nodiscard]] float weight(const SurfacePoint& receiver,

@@ -113,6 +113,24 @@ LightSample PolygonEmitter::sample(const SurfacePoint& receiver, const vec2& u) 
     return s;
 }
 
+float PolygonEmitter::density(const SurfacePoint& receiver, const vec3& direction) const {
+    const vec3 to_center = center_ - receiver.position;
+    const float slope = glm::dot(direction, normal_);
+    if (area_ < kSmallSolidAngle * glm::dot(to_center, to_center)) {
+        const float distance = glm::dot(to_center, normal_) / slope;
+        return distance * distance / (area_ * std::abs(slope));
+    }
+    const auto direction_to = [&](std::size_t i) {
+        return glm::normalize(corners_[i] - receiver.position);
+    };
+    float omega = 0;
+    for (std::size_t i = 2; i < count_; ++i) {
+        omega +=
+            SphericalTriangle(direction_to(0), direction_to(i - 1), direction_to(i)).solid_angle();
+    }
+    return omega > 0 ? 1 / omega : 0.0F;
+}
+
 EmitterBounds PolygonEmitter::bounds() const {
     EmitterBounds b;
     b.center = center_;

@@ -231,23 +231,7 @@ TEST_F(ShadowMapLight, few_points_stand_for_many_emitters) {
     Scene scene;
     const int glow = test::add_material(scene, vec3(0), vec3(3));
     test::add_quad(scene, "floor", vec3(-3, -3, 0), 6.0F * kX, 6.0F * kY, kNone);
-    constexpr int kRings = 16;
-    const auto at = [](int i, int j) {
-        const float theta = kPi * static_cast<float>(i) / kRings;
-        const float phi = kPi * static_cast<float>(j) / kRings;
-        return vec3(0, 0, 1.5F) + 0.3F * vec3(std::sin(theta) * std::cos(phi),
-                                              std::sin(theta) * std::sin(phi), std::cos(theta));
-    };
-    for (int i = 0; i < kRings; ++i) {
-        for (int j = 0; j < 2 * kRings; ++j) {
-            if (i > 0)
-                test::add_polygon(scene, "ball", {at(i, j), at(i + 1, j), at(i, j + 1)}, glow);
-            if (i + 1 < kRings) {
-                test::add_polygon(scene, "ball", {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)},
-                                  glow);
-            }
-        }
-    }
+    test::add_ball(scene, "ball", vec3(0, 0, 1.5F), 0.3F, 16, glow);
     Stage stage(scene);
     EXPECT_LE(stage.maps.maps().images, 256U * 5);
     double sum = 0;
