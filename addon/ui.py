@@ -10,7 +10,7 @@ ENGINE = "ANTIRADIANCE"
 
 # Which panel shows which option; an option that no panel names shows up in the last one.
 PANEL_OPTIONS = {
-    "solution": ("visibility", "direct_light"),
+    "solution": ("visibility", "direct_light", "direct_samples"),
     "link_mesh": ("max_patch_size", "link_threshold", "direction_bins", "visibility_rays"),
     "solver": ("solver", "iterations"),
     "display": ("display", "shooting_level", "shooting_visibility", "shooting_samples",

@@ -136,7 +136,7 @@ Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
                      DisplayBackend& backend, Progress& progress) {
     GBuffer buffer =
         make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct,
-                      input.film_transparent, input.samples_per_axis},
+                      input.film_transparent, input.samples_per_axis, options.direct_samples},
                      progress, {0, kGBufferShare});
     std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));
     if (input.tree.size() > 0)

@@ -30,6 +30,7 @@ struct DisplayOptions {
     int shooting_samples = 8;  // points on each patch light, 1..16
     int bin_map_size = 256;    // texels along a face of the cube map of bin weights, 32..1024
     int interleave = 1;        // n: every n x n pixels share out the sources, 1..16
+    int direct_samples = 16;   // shadow rays for each light of a pixel, more where needed, 4..1024
     bool operator==(const DisplayOptions&) const = default;
 };
 

@@ -12,9 +12,12 @@ namespace antiradiance {
 
 namespace {
 
-constexpr float kNoDepth = 1e10F;     // Blender's value for nothing
-constexpr std::size_t kBlock = 32;    // pixels; some ms
-constexpr int kMostDirectRays = 256;  // for each light and fragment
+constexpr float kNoDepth = 1e10F;   // Blender's value for nothing
+constexpr std::size_t kBlock = 32;  // pixels; some ms
+// Pixels that are sampled before shadow maps light all their fragments; bounds the points in
+// memory.
+constexpr std::size_t kBand = 1U << 16U;
+constexpr std::size_t kMapPoints = 4;  // of a fragment that shadow maps light
 
 // A fragment while its pixel's samples come in.
 struct OpenFragment {
@@ -23,6 +26,21 @@ struct OpenFragment {
     vec3 albedo{0};    // sum over samples
     vec3 emission{0};  // sum over samples
     std::vector<SurfacePoint> points;
+};
+
+// Fragments of some pixels, and the points of each that are to be lit by shadow maps.
+struct Sampled {
+    std::vector<Fragment> fragments;
+    std::vector<SurfacePoint> points;
+    std::vector<std::uint32_t> ends;  // of the points of each fragment; empty without shadow maps
+
+    void append(const Sampled& other) {
+        const auto before = static_cast<std::uint32_t>(points.size());
+        fragments.insert(fragments.end(), other.fragments.begin(), other.fragments.end());
+        points.insert(points.end(), other.points.begin(), other.points.end());
+        for (const std::uint32_t end : other.ends)
+            ends.push_back(before + end);
+    }
 };
 
 class PixelSampler {
@@ -36,7 +54,7 @@ public:
           samples_(input.samples_per_axis * input.samples_per_axis) {}
 
     // Appends the fragments of a pixel and fills its place in the images.
-    void sample(std::size_t pixel, std::vector<Fragment>& fragments) {
+    void sample(std::size_t pixel, Sampled& sampled) {
         open_count_ = 0;
         pixel_ = pixel;
         vec4 background(0);
@@ -59,8 +77,9 @@ public:
         out_.background[pixel] = background / static_cast<float>(samples_);
         vec3 normal(0);
         for (std::size_t i = 0; i < open_count_; ++i) {
-            fragments.push_back(close(open_[i]));
-            normal += fragments.back().shading_normal * fragments.back().coverage;
+            const Fragment& f = sampled.fragments.emplace_back(close(open_[i]));
+            if (in_.direct.has_maps()) add_points(open_[i], f, sampled);
+            normal += f.shading_normal * f.coverage;
         }
         const float length = glm::length(normal);
         out_.normal[pixel] = length > 0 ? normal / length : vec3(0);
@@ -131,6 +150,21 @@ private:
         return fragment;
     }
 
+    static void add_points(const OpenFragment& open, const Fragment& f, Sampled& sampled) {
+        if (max_component(f.albedo) > 0) {
+            const auto points = spread_choice(open.points, kMapPoints);
+            sampled.points.insert(sampled.points.end(), points.begin(), points.end());
+        }
+        sampled.ends.push_back(static_cast<std::uint32_t>(sampled.points.size()));
+    }
+
+    [[nodiscard]] vec3 direct_irradiance(const OpenFragment& open) const {
+        const auto points =
+            spread_choice(open.points, static_cast<std::size_t>(in_.direct_samples));
+        return in_.direct.irradiance(points, in_.direct_samples, expected(open.leaf),
+                                     hash_u32(static_cast<std::uint32_t>(pixel_)));
+    }
+
     [[nodiscard]] Fragment close(const OpenFragment& open) const {
         const auto count = static_cast<float>(open.points.size());
         Fragment f;
@@ -146,11 +180,8 @@ private:
         f.shading_normal = length > 0 ? f.shading_normal / length : f.normal;
         f.albedo = open.albedo / count;
         f.light = open.emission / count;
-        if (max_component(f.albedo) > 0) {
-            f.light += f.albedo * kInvPi *
-                       in_.direct.irradiance(open.points, kMostDirectRays, expected(open.leaf),
-                                             hash_u32(static_cast<std::uint32_t>(pixel_)));
-        }
+        if (max_component(f.albedo) > 0 && !in_.direct.has_maps())
+            f.light += f.albedo * kInvPi * direct_irradiance(open);
         return f;
     }
 
@@ -165,6 +196,44 @@ private:
     std::size_t open_count_ = 0;
 };
 
+ProgressSpan part_of(ProgressSpan span, double begin, double end) {
+    const double length = span.end - span.begin;
+    return {span.begin + static_cast<float>(begin * length),
+            span.begin + static_cast<float>(end * length)};
+}
+
+// Pixels [first, first + count).
+Sampled sample_band(const GBufferInput& input, std::size_t first, std::size_t count,
+                    GBuffer& buffer, Progress& progress, ProgressSpan span) {
+    std::vector<Sampled> blocks((count + kBlock - 1) / kBlock);
+    parallel_for_blocks(
+        count, kBlock, progress,
+        [&](std::size_t begin, std::size_t end) {
+            PixelSampler sampler(input, buffer);
+            for (std::size_t i = begin; i < end; ++i) {
+                progress.check();
+                sampler.sample(first + i, blocks[begin / kBlock]);
+            }
+        },
+        span);
+    Sampled band;
+    for (Sampled& block : blocks) {
+        band.append(block);
+        block = {};
+    }
+    return band;
+}
+
+void light_by_maps(const DirectLight& direct, Sampled& band, Progress& progress,
+                   ProgressSpan span) {
+    const std::vector<vec3> irradiance =
+        direct.mapped_irradiance(band.points, band.ends, progress, span);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        Fragment& f = band.fragments[i];
+        f.light += f.albedo * kInvPi * irradiance[i];
+    }
+}
+
 }  // namespace
 
 GBuffer make_gbuffer(const GBufferInput& input, Progress& progress, ProgressSpan span) {
@@ -178,25 +247,17 @@ GBuffer make_gbuffer(const GBufferInput& input, Progress& progress, ProgressSpan
     buffer.depth.resize(pixels);
     buffer.normal.resize(pixels);
 
-    std::vector<std::vector<Fragment>> blocks((pixels + kBlock - 1) / kBlock);
-    parallel_for_blocks(
-        pixels, kBlock, progress,
-        [&](std::size_t begin, std::size_t end) {
-            PixelSampler sampler(input, buffer);
-            std::vector<Fragment>& fragments = blocks[begin / kBlock];
-            for (std::size_t pixel = begin; pixel < end; ++pixel) {
-                progress.check();
-                sampler.sample(pixel, fragments);
-            }
-        },
-        span);
-    std::size_t count = 0;
-    for (const auto& block : blocks)
-        count += block.size();
-    buffer.fragments.reserve(count);
-    for (auto& block : blocks) {
-        buffer.fragments.insert(buffer.fragments.end(), block.begin(), block.end());
-        block = {};
+    const bool has_maps = input.direct.has_maps();
+    for (std::size_t first = 0; first < pixels; first += kBand) {
+        const std::size_t count = std::min(kBand, pixels - first);
+        const auto all = static_cast<double>(pixels);
+        const ProgressSpan part = part_of(span, static_cast<double>(first) / all,
+                                          static_cast<double>(first + count) / all);
+        Sampled band = sample_band(input, first, count, buffer, progress,
+                                   part_of(part, 0, has_maps ? 0.5 : 1));
+        if (has_maps) light_by_maps(input.direct, band, progress, part_of(part, 0.5, 1));
+        buffer.fragments.insert(buffer.fragments.end(), band.fragments.begin(),
+                                band.fragments.end());
     }
     return buffer;
 }

@@ -44,6 +44,7 @@ struct GBufferInput {
     std::span<const vec3> leaf_direct;  // #nodes, W/m2 of direct light on each leaf
     bool film_transparent;              // alpha 0 and no radiance where nothing is seen
     int samples_per_axis;               // anti-aliasing: n x n jittered samples a pixel, box filter
+    int direct_samples;                 // of DirectLight::irradiance()
 };
 
 [[nodiscard]] GBuffer make_gbuffer(const GBufferInput& input, Progress& progress,

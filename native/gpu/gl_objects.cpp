@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 
 namespace antiradiance::gpu {
 namespace {
@@ -28,6 +29,45 @@ std::string link_log(GLuint program) {
 
 void delete_shader(std::uint32_t name) {
     glDeleteShader(name);
+}
+
+struct Stage {
+    GLenum type;
+    const ShaderSource* source;
+};
+
+Name<delete_shader> compile(const Stage& stage) {
+    Name<delete_shader> shader(glCreateShader(stage.type));
+    const char* text = stage.source->text.c_str();
+    glShaderSource(shader.get(), 1, &text, nullptr);
+    glCompileShader(shader.get());
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        throw GlError("shader " + stage.source->files.front() + " does not compile:\n" +
+                      stage.source->name_files(compile_log(shader.get())));
+    }
+    return shader;
+}
+
+Name<delete_program> build(std::span<const Stage> stages) {
+    Name<delete_program> program(glCreateProgram());
+    std::vector<Name<delete_shader>> shaders;
+    for (const Stage& stage : stages) {
+        shaders.push_back(compile(stage));
+        glAttachShader(program.get(), shaders.back().get());
+    }
+    glLinkProgram(program.get());
+    GLint ok = GL_FALSE;
+    glGetProgramiv(program.get(), GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        const ShaderSource& first = *stages.front().source;
+        throw GlError("shader " + first.files.front() + " does not link:\n" +
+                      first.name_files(link_log(program.get())));
+    }
+    for (const Name<delete_shader>& shader : shaders)
+        glDetachShader(program.get(), shader.get());
+    return program;
 }
 
 }  // namespace
@@ -84,27 +124,23 @@ void RawBuffer::bind(int binding) const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), name_.get());
 }
 
+void RawBuffer::bind_uniform(int binding, std::size_t offset, std::size_t bytes) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), name_.get(),
+                      static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
 Program Program::compute(const ShaderSource& source) {
-    const Name<delete_shader> shader(glCreateShader(GL_COMPUTE_SHADER));
-    const char* text = source.text.c_str();
-    glShaderSource(shader.get(), 1, &text, nullptr);
-    glCompileShader(shader.get());
-    GLint ok = GL_FALSE;
-    glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &ok);
-    if (ok != GL_TRUE) {
-        throw GlError("shader " + source.files.front() + " does not compile:\n" +
-                      source.name_files(compile_log(shader.get())));
-    }
+    const std::array<Stage, 1> stages{Stage{GL_COMPUTE_SHADER, &source}};
     Program program;
-    program.name_ = Name<delete_program>(glCreateProgram());
-    glAttachShader(program.name_.get(), shader.get());
-    glLinkProgram(program.name_.get());
-    glGetProgramiv(program.name_.get(), GL_LINK_STATUS, &ok);
-    if (ok != GL_TRUE) {
-        throw GlError("shader " + source.files.front() + " does not link:\n" +
-                      source.name_files(link_log(program.name_.get())));
-    }
-    glDetachShader(program.name_.get(), shader.get());
+    program.name_ = build(stages);
+    return program;
+}
+
+Program Program::raster(const ShaderSource& vertex, const ShaderSource& fragment) {
+    const std::array<Stage, 2> stages{Stage{GL_VERTEX_SHADER, &vertex},
+                                      Stage{GL_FRAGMENT_SHADER, &fragment}};
+    Program program;
+    program.name_ = build(stages);
     return program;
 }
 

@@ -51,6 +51,7 @@ public:
     void read(std::size_t offset, std::size_t bytes, void* data) const;
     void clear();                  // to zeros
     void bind(int binding) const;  // as an SSBO
+    void bind_uniform(int binding, std::size_t offset, std::size_t bytes) const;
 
 private:
     Name<delete_buffer> name_;
@@ -81,6 +82,11 @@ public:
     }
     void clear() { raw_.clear(); }
     void bind(int binding) const { raw_.bind(binding); }
+    // One value as a uniform buffer; sizeof(T) is a multiple of 256, which any device aligns to.
+    void bind_uniform(int binding, std::size_t index) const {
+        static_assert(sizeof(T) % 256 == 0);
+        raw_.bind_uniform(binding, index * sizeof(T), sizeof(T));
+    }
 
 private:
     std::size_t size_ = 0;
@@ -92,6 +98,7 @@ public:
     Program() = default;
     // Throws GlError with the compiler's messages, which name the files of the source.
     static Program compute(const ShaderSource& source);
+    static Program raster(const ShaderSource& vertex, const ShaderSource& fragment);
 
     void use() const;
     // Runs that many work groups; what they wrote is seen by later dispatches and reads.

@@ -109,7 +109,7 @@ VisibilityError compare_visibility(Scene scene, Options options, int rays_per_li
     error.links = model.links.links.size();
     if (error.leaves == 0) return error;
 
-    const DirectLight light(scene, model.rays, options.direct_light);
+    const DirectLight light(scene, model.rays, options.direct_light, progress);
     const std::vector<vec3> direct = light.leaf_irradiance(model.tree, progress);
     const TransportInput input = make_transport_input(model.tree, direct, options.direct_light);
     SolveOptions solve;

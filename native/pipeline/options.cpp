@@ -48,8 +48,22 @@ std::vector<OptionInfo> make_schema() {
                     "Lamps and emissive meshes by shadow rays; links carry the indirect light"},
                    {"IMPLICIT", "Implicit",
                     "Emissive meshes and area lamps emit along links as patches; point, spot and "
-                    "sun lamps stay on shadow rays"}},
+                    "sun lamps stay on shadow rays"},
+                   {"SHADOW_MAPS", "Shadow Maps",
+                    "As Explicit, but shadows are looked up in depth images that OpenGL draws; the "
+                    "soft shadows of large lights have steps"}},
          .access = access_to<&Options::direct_light>()});
+    schema.push_back(
+        {.name = "direct_samples",
+         .label = "Direct Samples",
+         .tooltip = "Shadow rays for each light of a pixel; a pixel whose light is still uncertain "
+                    "then gets up to 16 times as many",
+         .type = OptionType::kInt,
+         .min = 4,
+         .max = 1024,
+         .soft_min = 4,
+         .soft_max = 128,
+         .access = access_to<&Options::direct_samples>()});
     schema.push_back(
         {.name = "max_patch_size",
          .label = "Max Patch Size",
@@ -249,8 +263,8 @@ auto find_option(std::string_view name) {
 }  // namespace
 
 DisplayOptions Options::resolved_display() const {
-    DisplayOptions result{display,          shooting_level, shooting_visibility,
-                          shooting_samples, bin_map_size,   interleave};
+    DisplayOptions result{display,      shooting_level, shooting_visibility, shooting_samples,
+                          bin_map_size, interleave,     direct_samples};
     if (shooting_visibility == ShootingVisibility::kAuto) {
         result.shooting_visibility = visibility == Visibility::kExplicit
                                          ? ShootingVisibility::kRays

@@ -31,6 +31,7 @@ struct Options {
     int shooting_samples = 8;  // points on each patch light, 1..16
     int bin_map_size = 256;    // texels along a face, 32..1024
     int interleave = 1;        // pixels along a side, 1..16
+    int direct_samples = 16;   // shadow rays for each light of a pixel, 4..1024
     std::string report_path;   // empty: no report is written
 
     bool operator==(const Options&) const = default;

@@ -17,6 +17,7 @@ std::string Report::to_json() const {
           {"antiradiance", links.antiradiance},
           {"total", links.total},
           {"bytes", links.bytes}}},
+        {"direct", {{"shadow_maps", direct.shadow_maps}, {"bytes", direct.bytes}}},
         {"solve",
          {{"backend", solve.backend},
           {"renderer", solve.renderer},

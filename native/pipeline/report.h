@@ -16,6 +16,10 @@ struct Report {
         std::size_t radiance = 0, antiradiance = 0, total = 0;  // directed links solved
         std::size_t bytes = 0;                                  // of the sorted link mesh
     } links;
+    struct Direct {
+        std::size_t shadow_maps = 0;  // images; 0: shadow rays
+        std::size_t bytes = 0;        // of the images
+    } direct;
     struct Solve {
         std::string backend;  // OPENGL or CPU
         std::string renderer;

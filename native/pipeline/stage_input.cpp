@@ -78,7 +78,7 @@ bool same_model_input(const StageInput& was, const StageInput& is) {
 
 bool same_direct_light_input(const StageInput& was, const StageInput& is) {
     // What IMPLICIT takes from shadow rays: emissive meshes and area lamps.
-    const bool all = is.options.direct_light == DirectLightMode::kExplicit;
+    const bool all = is.options.direct_light != DirectLightMode::kImplicit;
     const auto same_light = [all](const Lamp& a, const Lamp& b) {
         return (!all && b.type == LampType::kArea) || light(a) == light(b);
     };

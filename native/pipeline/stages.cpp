@@ -53,13 +53,16 @@ void run_direct_light(const StageInput& input, StageResults& results, Report::Ti
                       Progress& progress) {
     Stopwatch watch;
     progress.begin_stage("Direct light", 0.45F, 0.6F);
-    const DirectLight& direct =
-        results.direct.emplace(input.scene, results.model->rays, input.options.direct_light);
+    const DirectLight& direct = results.direct.emplace(input.scene, results.model->rays,
+                                                       input.options.direct_light, progress);
     results.leaf_direct = direct.leaf_irradiance(results.model->tree, progress);
     timings.direct = watch.lap();
 }
 
-void describe_nothing(const StageInput&, const StageResults&, Report&) {}
+void describe_direct_light(const StageInput&, const StageResults& results, Report& report) {
+    const DirectLight::Maps maps = results.direct->maps();
+    report.direct = {maps.images, maps.bytes};
+}
 
 void forget_direct_light(StageResults& results) {
     results.direct.reset();
@@ -144,7 +147,7 @@ void forget_display(StageResults& results) {
 
 constexpr std::array kStages{
     Stage{"model", same_model_input, run_model, describe_model, forget_model},
-    Stage{"direct_light", same_direct_light_input, run_direct_light, describe_nothing,
+    Stage{"direct_light", same_direct_light_input, run_direct_light, describe_direct_light,
           forget_direct_light},
     Stage{"solve", same_solve_input, run_solve, describe_solve, forget_solve},
     Stage{"display", never_same, run_display, describe_display, forget_display},

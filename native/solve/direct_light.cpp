@@ -6,11 +6,23 @@
 
 #include "base/random.h"
 #include "solve/direct_light_estimate.h"
+#include "solve/direct_light_maps.h"
 
 namespace antiradiance {
 
-DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode)
-    : impl_(std::make_unique<Impl>(Impl{rays, {}, {}, {}, {}})) {
+std::vector<SurfacePoint> spread_choice(std::span<const SurfacePoint> points, std::size_t count) {
+    if (points.size() <= count) return {points.begin(), points.end()};
+    const std::size_t stretch = points.size() / count;
+    std::vector<SurfacePoint> chosen;
+    chosen.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        chosen.push_back(points[i * stretch + i % stretch]);
+    return chosen;
+}
+
+DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode,
+                         Progress& progress)
+    : impl_(std::make_unique<Impl>(Impl{scene, rays})) {
     const float epsilon = rays.epsilon();
     std::vector<EmitterPtr>& emitters = impl_->emitters;
     for (const Lamp& lamp : scene.lamps) {
@@ -19,11 +31,11 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
             emitters.push_back(std::move(emitter));
         }
     }
-    if (mode == DirectLightMode::kExplicit) {
-        for (EmitterPtr& emitter : make_mesh_emitters(scene, epsilon)) {
-            emitters.push_back(std::move(emitter));
-        }
-    }
+    MeshEmitters mesh;
+    if (mode != DirectLightMode::kImplicit) mesh = make_mesh_emitters(scene, epsilon);
+    const std::size_t mesh_count = mesh.emitters.size();
+    for (EmitterPtr& emitter : mesh.emitters)
+        emitters.push_back(std::move(emitter));
     std::vector<EmitterBounds> bounds;
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const auto index = static_cast<std::int32_t>(i);
@@ -39,21 +51,44 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
         impl_->in_tree.clear();
     } else {
         impl_->tree = EmitterTree(bounds);
+        impl_->of_triangle = std::move(mesh.of_triangle);
+        const auto first = static_cast<std::int32_t>(bounds.size() - mesh_count);
+        for (std::int32_t& number : impl_->of_triangle) {
+            if (number != kNone) number += first;
+        }
     }
+    if (mode == DirectLightMode::kShadowMaps && any())
+        impl_->mapped = std::make_unique<MappedLight>(*impl_, progress);
 }
 
 DirectLight::~DirectLight() = default;
+
+bool DirectLight::has_maps() const {
+    return impl_->mapped != nullptr;
+}
+
+std::vector<vec3> DirectLight::mapped_irradiance(std::span<const SurfacePoint> points,
+                                                 std::span<const std::uint32_t> ends,
+                                                 Progress& progress, ProgressSpan span) const {
+    return impl_->mapped->irradiance(points, ends, progress, span);
+}
+
+DirectLight::Maps DirectLight::maps() const {
+    if (!has_maps()) return {};
+    return {impl_->mapped->maps().image_count(), impl_->mapped->maps().bytes()};
+}
 
 bool DirectLight::any() const {
     return !impl_->emitters.empty();
 }
 
-vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int max_rays, float expected,
+vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int samples, float expected,
                              std::uint32_t seed) const {
     if (points.empty() || !any()) return vec3(0);
     IrradianceEstimate estimate(*impl_, points, seed);
+    const int max_rays = kMostSamplesFactor * samples;
     const auto count = static_cast<int>(points.size());
-    int passes = (kFirstRays + count - 1) / count;
+    int passes = (samples + count - 1) / count;
     int rays = 0;
     while (passes > 0) {
         for (int i = 0; i < passes; ++i)

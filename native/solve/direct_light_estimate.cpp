@@ -31,8 +31,9 @@ ReceiverBounds bounds_of(std::span<const SurfacePoint> points) {
 }  // namespace
 
 IrradianceEstimate::IrradianceEstimate(const DirectLight::Impl& light,
-                                       std::span<const SurfacePoint> points, std::uint32_t seed)
-    : light_(light), seed_(seed) {
+                                       std::span<const SurfacePoint> points, std::uint32_t seed,
+                                       std::uint32_t hemisphere_rays)
+    : light_(light), seed_(seed), hemisphere_rays_(hemisphere_rays) {
     sums_.reserve(light.always.size());
     for (const std::int32_t emitter : light.always)
         sums_.push_back({.emitter = emitter});
@@ -78,13 +79,19 @@ void IrradianceEstimate::add_own(Sum& sum, std::span<const SurfacePoint> points)
     }
 }
 
-void IrradianceEstimate::add_chosen(std::span<const SurfacePoint> points) {
-    const std::uint32_t pass = chosen_passes_++;
-    const float offset = r2_sample(pass, seed_ ^ 0x9d2c5680U).x;
-    light_.tree.choose(receivers_, kChoices, offset, choices_);
-    vec3 sum(0);
-    double squares = 0;
-    double mean = 0;
+// Balance heuristic: the part of a direction's light that samples of chosen emitters count.
+// probability: of the emitter; density: of its own samples, 1/sr, 0: only they reach it.
+float IrradianceEstimate::share_of_choice(const SurfacePoint& point, const vec3& direction,
+                                          double probability, float density) const {
+    if (density <= 0 || hemisphere_rays_ == 0) return 1;
+    const float cosine = std::max(0.0F, glm::dot(direction, point.shading_normal));
+    const float by_choice = kChoices * static_cast<float>(probability) * density;
+    const float by_cosine = static_cast<float>(hemisphere_rays_) * cosine * kInvPi;
+    return by_choice / (by_choice + by_cosine);
+}
+
+void IrradianceEstimate::sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass,
+                                        Moments& moments) {
     const std::uint32_t seed = hash_combine(seed_, 0x7f4a7c15U);
     for (const EmitterChoice& choice : choices_) {
         if (choice.probability * kChoices >= kOwnRays) continue;
@@ -97,15 +104,61 @@ void IrradianceEstimate::add_chosen(std::span<const SurfacePoint> points) {
             const SurfacePoint& point = points[turn % points.size()];
             if (emitter.unshadowed(point) <= 0) continue;
             const LightSample s = emitter.sample(point, r2_sample(pass * kChoices + i, seed));
-            const vec3 e = arriving(point, s) * (s.weight / static_cast<float>(choice.probability));
-            sum += e;
-            const double y = luminance(e);
-            mean += y / kChoices;
-            squares += y * y / kChoices;
+            if (s.weight <= 0) continue;
+            const float share = share_of_choice(point, s.direction, choice.probability,
+                                                emitter.density(point, s.direction));
+            moments.add(arriving(point, s) *
+                        (share * s.weight / static_cast<float>(choice.probability)));
         }
     }
-    chosen_ += sum / static_cast<float>(kChoices);
-    chosen_var_ += std::max(0.0, squares - mean * mean) / kChoices;
+}
+
+// The light of the tree's emitters along a direction, pi L W/m2, by the share that the hemisphere's
+// samples count of it.
+vec3 IrradianceEstimate::arriving_from(const SurfacePoint& point, const vec3& direction) const {
+    if (glm::dot(direction, point.normal) <= 0) return vec3(0);
+    const vec3 origin = point.position + point.normal * light_.rays.epsilon();
+    const RayHit hit = light_.rays.intersect(origin, direction);
+    if (!hit.hit()) return vec3(0);
+    const std::int32_t in_tree = light_.of_triangle[static_cast<std::size_t>(hit.triangle)];
+    if (in_tree == kNone) return vec3(0);
+    const double probability = light_.tree.probability(receivers_, in_tree);
+    if (probability * kChoices >= kOwnRays) return vec3(0);  // it has its own rays
+    const auto index = light_.in_tree[static_cast<std::size_t>(in_tree)];
+    const float density =
+        light_.emitters[static_cast<std::size_t>(index)]->density(point, direction);
+    if (density <= 0) return vec3(0);
+    const float share = 1 - share_of_choice(point, direction, probability, density);
+    return share * kPi * light_.scene.emission_at(hit.triangle, hit.barycentric);
+}
+
+void IrradianceEstimate::sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,
+                                           Moments& moments) {
+    const std::uint32_t seed = hash_combine(seed_, 0x3c6ef372U);
+    for (std::uint32_t i = 0; i < hemisphere_rays_; ++i) {
+        const std::uint32_t number = pass * kHemisphereRays + i;
+        const SurfacePoint& point = points[number % points.size()];
+        const Frame frame(point.shading_normal);
+        moments.add(
+            arriving_from(point, frame.to_world(cosine_hemisphere(r2_sample(number, seed)))));
+    }
+}
+
+void IrradianceEstimate::add_chosen(std::span<const SurfacePoint> points) {
+    const std::uint32_t pass = chosen_passes_++;
+    const float offset = r2_sample(pass, seed_ ^ 0x9d2c5680U).x;
+    light_.tree.choose(receivers_, kChoices, offset, choices_);
+    Moments by_choice;
+    sample_choices(points, pass, by_choice);
+    chosen_ += by_choice.sum / static_cast<float>(kChoices);
+    chosen_var_ += by_choice.variance(kChoices);
+    if (hemisphere_rays_ == 0) return;
+    Moments by_cosine;
+    sample_hemisphere(points, pass, by_cosine);
+    chosen_ += by_cosine.sum / static_cast<float>(hemisphere_rays_);
+    chosen_var_ += by_cosine.variance(hemisphere_rays_);
+    // Each pass is unbiased by itself, whatever the last one decides for it.
+    if (by_cosine.y <= 0) hemisphere_rays_ = 0;
 }
 
 void IrradianceEstimate::add(std::span<const SurfacePoint> points) {

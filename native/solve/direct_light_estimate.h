@@ -6,8 +6,15 @@
 // Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", 2018). Where
 // nothing is in the way it has no noise; in a penumbra its bias is O(1 / rays), far below its noise
 // there.
+//
+// The emitters of a tree are sampled in two ways, which the balance heuristic combines (Veach and
+// Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995): emitters
+// chosen by the light they can bring, and directions by their cosine. The second wins close to
+// large meshes, where bounds tell little of a triangle's light.
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,27 +30,33 @@ inline constexpr std::size_t kMostEmittersEach = 8;
 inline constexpr double kOwnRays = 4;
 // Choices among many emitters in one pass, divided over the points.
 inline constexpr std::uint32_t kChoices = 64;
-// Rays for each emitter before the first look at the error.
-inline constexpr int kFirstRays = 16;
+// Rays over the hemisphere beside them, as long as any of them meets an emitter.
+inline constexpr std::uint32_t kHemisphereRays = 8;
 // Rays of a leaf for an emitter that seems to be hidden altogether.
 inline constexpr int kLeafShadowRays = 64;
 // Standard error at which rays end, relative to the irradiance: an eye sees about 0.02.
 inline constexpr float kPixelTolerance = 0.015F;
 inline constexpr float kLeafTolerance = 0.01F;
 
+class MappedLight;
+
 struct DirectLight::Impl {
+    const Scene& scene;  // its emission
     const RayScene& rays;
-    std::vector<EmitterPtr> emitters;
-    std::vector<std::int32_t> always;   // into emitters: each gets its own rays
-    std::vector<std::int32_t> in_tree;  // into emitters: the tree's indices
-    EmitterTree tree;
+    std::vector<EmitterPtr> emitters{};
+    std::vector<std::int32_t> always{};   // into emitters: each gets its own rays
+    std::vector<std::int32_t> in_tree{};  // into emitters: the tree's indices
+    EmitterTree tree{};
+    // The tree's emitter that has the whole triangle, or kNone.  // #triangles; none without tree
+    std::vector<std::int32_t> of_triangle{};
+    std::unique_ptr<MappedLight> mapped{};  // in mode kShadowMaps, if there is an emitter
 };
 
 class IrradianceEstimate {
 public:
     // `points`: where the receivers lie; the later ones of add() may be others close by.
     IrradianceEstimate(const DirectLight::Impl& light, std::span<const SurfacePoint> points,
-                       std::uint32_t seed);
+                       std::uint32_t seed, std::uint32_t hemisphere_rays = kHemisphereRays);
 
     // One shadow ray to each emitter that is still active from each point.
     void add(std::span<const SurfacePoint> points);
@@ -67,8 +80,30 @@ private:
         double yy = 0, yw = 0, ww = 0;
     };
 
+    // Samples of a mean.
+    struct Moments {
+        vec3 sum{0};           // W/m2
+        double y = 0, yy = 0;  // sums of the luminance and its square
+        void add(const vec3& e) {
+            sum += e;
+            const double l = luminance(e);
+            y += l;
+            yy += l * l;
+        }
+        // Of the mean of `count` samples.
+        [[nodiscard]] double variance(double count) const {
+            return std::max(0.0, yy / count - y * y / (count * count)) / count;
+        }
+    };
+
     void add_own(Sum& sum, std::span<const SurfacePoint> points);
     void add_chosen(std::span<const SurfacePoint> points);
+    void sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass, Moments& moments);
+    void sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,
+                           Moments& moments);
+    [[nodiscard]] vec3 arriving_from(const SurfacePoint& point, const vec3& direction) const;
+    [[nodiscard]] float share_of_choice(const SurfacePoint& point, const vec3& direction,
+                                        double probability, float density) const;
     [[nodiscard]] vec3 arriving(const SurfacePoint& point, const LightSample& sample) const;
     [[nodiscard]] static vec3 mean_of(const Sum& sum);
     [[nodiscard]] static double error_of(const Sum& sum);
@@ -79,6 +114,7 @@ private:
     ReceiverBounds receivers_;
     // Emitters chosen at random, per pass over kChoices samples.
     bool chosen_active_ = false;
+    std::uint32_t hemisphere_rays_;  // of the next pass
     std::uint32_t chosen_passes_ = 0;
     vec3 chosen_{0};         // sum over passes, W/m2
     double chosen_var_ = 0;  // sum over passes of the variance of a pass's mean

@@ -68,6 +68,15 @@ float sphere_irradiance(float cos_theta, float sin_sigma) {
     return std::max(0.0F, e) * kInvPi;
 }
 
+float point_to_point(const vec3& receiver, const vec3& receiver_normal, const vec3& point,
+                     const vec3& normal) {
+    const vec3 to = point - receiver;
+    const float distance2 = glm::dot(to, to);
+    const float cosines =
+        std::max(0.0F, glm::dot(to, receiver_normal)) * std::max(0.0F, -glm::dot(to, normal));
+    return distance2 > 0 ? cosines / (distance2 * distance2) : 0.0F;
+}
+
 vec3 sample_cone(const vec3& axis, float one_minus_cos, const vec2& u) {
     // A disk maps to a cap by area when 1 - cos grows with the square of the radius.
     const vec2 disk = concentric_disk(u);

@@ -19,6 +19,10 @@ namespace antiradiance {
 // the horizon is cut off (Snyder, "Area Light Sources for Real-Time Graphics", 1996).
 [[nodiscard]] float sphere_irradiance(float cos_theta, float sin_sigma);
 
+// cos cos / d^2 from a point of a surface with unit `normal` to a receiver, 1/m2; 0 behind either.
+[[nodiscard]] float point_to_point(const vec3& receiver, const vec3& receiver_normal,
+                                   const vec3& point, const vec3& normal);
+
 // Unit direction in the cone of half angle sigma about `axis`, uniform by solid angle.
 // one_minus_cos: 1 - cos(sigma), exact for small angles.
 [[nodiscard]] vec3 sample_cone(const vec3& axis, float one_minus_cos, const vec2& u);

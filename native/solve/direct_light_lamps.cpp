@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/random.h"
@@ -82,7 +81,40 @@ public:
         return b;
     }
 
+    EmitterPoint point(std::uint32_t index) const override {
+        EmitterPoint p;
+        p.position = center_ + radius_ * point_of_ball(index);
+        if (lamp_.type == LampType::kSpot) {
+            p.axis = lamp_direction(lamp_);
+            p.reach = outer_angle_;
+        }
+        return p;
+    }
+
+    float weight(const SurfacePoint& receiver, const EmitterPoint& point) const override {
+        const vec3 to = point.position - receiver.position;
+        const float d = std::max(glm::length(to), least_distance_);
+        const float spot = is_coloured() ? spot_falloff(lamp_, -to / d) : 1.0F;
+        return spot * std::max(0.0F, glm::dot(to, receiver.shading_normal)) / (d * d * d);
+    }
+
+    bool is_point() const override { return radius_ == 0; }
+    float most_unshadowed() const override { return RayScene::kInfinity; }
+
+protected:
+    bool is_coloured() const override { return lamp_.type == LampType::kSpot; }
+
 private:
+    // A point of the unit ball. Many of them look like an evenly bright disk from every side: they
+    // are points of the sphere in four dimensions, without their last coordinate.
+    static vec3 point_of_ball(std::uint32_t index) {
+        constexpr std::uint32_t kThird = 1779033703;  // sqrt(2), beside R2's two irrational steps
+        const vec2 u = r2_sample(index, kPointSeed);
+        const float first = std::sqrt(1 - u.x);
+        const float second = std::sqrt(u.x);
+        return {first * std::cos(2 * kPi * u.y), first * std::sin(2 * kPi * u.y),
+                second * std::cos(2 * kPi * to_unit_float(index * kThird))};
+    }
     static float widest_half_angle(const Lamp& lamp) {
         const float half = std::min(lamp.spot_angle / 2, kPi / 2);
         if (lamp.spot_cosine) return half;
@@ -139,170 +171,24 @@ public:
     EmitterBounds bounds() const override { return {}; }
     bool at_infinity() const override { return true; }
 
+    EmitterPoint point(std::uint32_t index) const override {
+        EmitterPoint p;
+        const float cos_half = std::sqrt(std::max(0.0F, 1 - sine_ * sine_));
+        p.axis =
+            -sample_cone(to_sun_, sine_ * sine_ / (1 + cos_half), r2_sample(index, kPointSeed));
+        p.reach = 0;
+        return p;
+    }
+    float weight(const SurfacePoint& receiver, const EmitterPoint& point) const override {
+        return std::max(0.0F, -glm::dot(point.axis, receiver.shading_normal));
+    }
+    bool is_point() const override { return sine_ == 0; }
+
 private:
     vec3 power_;
     vec3 to_sun_;
     float half_;  // rad
     float sine_;
-};
-
-// Regular polygon of the unit circle's area, so that its irradiance agrees with the disk's to
-// second order in size / distance.
-template <std::size_t N>
-const std::array<vec2, N>& equal_area_polygon() {
-    static const std::array<vec2, N> corners = [] {
-        std::array<vec2, N> c;
-        const float step = 2 * kPi / static_cast<float>(N);
-        const float radius = std::sqrt(2 * kPi / (static_cast<float>(N) * std::sin(step)));
-        for (std::size_t i = 0; i < N; ++i) {
-            const float angle = step * static_cast<float>(i);
-            c[i] = radius * vec2(std::cos(angle), std::sin(angle));
-        }
-        return c;
-    }();
-    return corners;
-}
-
-// An elliptic area lamp with the full spread.
-class EllipseEmitter final : public Emitter {
-public:
-    EllipseEmitter(const Lamp& lamp, float epsilon)
-        : center_(lamp_position(lamp)),
-          axes_(area_lamp_axes(lamp)),
-          normal_(lamp_direction(lamp)),
-          area_(axes_.area(AreaShape::kEllipse)),
-          radiance_(area_lamp_radiance(lamp)),
-          epsilon_(epsilon) {}
-
-    float unshadowed(const SurfacePoint& receiver) const override {
-        const vec3 to = center_ - receiver.position;
-        if (glm::dot(to, normal_) >= -epsilon_) return 0;
-        const float size2 = glm::dot(axes_.x, axes_.x) + glm::dot(axes_.y, axes_.y);
-        // At twice the size, 12 corners are within 2e-4 of the ellipse.
-        return glm::dot(to, to) > 4 * size2 ? irradiance<12>(to, receiver.shading_normal)
-                                            : irradiance<56>(to, receiver.shading_normal);
-    }
-
-    LightSample sample(const SurfacePoint& receiver, const vec2& u) const override {
-        const vec2 d = concentric_disk(u);
-        LightSample s;
-        s.target = center_ + axes_.x * d.x + axes_.y * d.y;
-        const vec3 to = s.target - receiver.position;
-        const float distance2 = glm::dot(to, to);
-        s.distance = std::sqrt(distance2);
-        s.direction = to / s.distance;
-        s.weight = area_ * std::max(0.0F, glm::dot(s.direction, receiver.shading_normal)) *
-                   std::max(0.0F, -glm::dot(s.direction, normal_)) / distance2;
-        s.radiance = radiance_;
-        return s;
-    }
-
-    EmitterBounds bounds() const override {
-        EmitterBounds b;
-        b.center = center_;
-        b.radius = std::sqrt(glm::dot(axes_.x, axes_.x) + glm::dot(axes_.y, axes_.y));
-        b.power = luminance(radiance_) * area_;
-        b.axis = normal_;
-        return b;
-    }
-
-private:
-    template <std::size_t N>
-    [[nodiscard]] float irradiance(const vec3& to_center, const vec3& normal) const {
-        std::array<vec3, N> corners;
-        for (std::size_t i = 0; i < N; ++i) {
-            const vec2& p = equal_area_polygon<N>()[i];
-            corners[i] = to_center + axes_.x * p.x + axes_.y * p.y;
-        }
-        return polygon_irradiance(corners, normal);
-    }
-
-    vec3 center_;
-    AreaAxes axes_;
-    vec3 normal_;
-    float area_;
-    vec3 radiance_;
-    float epsilon_;
-};
-
-// An area lamp whose spread is below pi. Only the part of it that the slats leave visible from the
-// receiver is sampled, without which a narrow beam would be all noise.
-class SpreadEmitter final : public Emitter {
-public:
-    SpreadEmitter(const Lamp& lamp, float epsilon)
-        : lamp_(lamp),
-          center_(lamp_position(lamp)),
-          axes_(area_lamp_axes(lamp)),
-          normal_(lamp_direction(lamp)),
-          radiance_(area_lamp_radiance(lamp)),
-          tan_half_(std::tan(lamp.spread / 2)),
-          epsilon_(epsilon) {
-        const vec3 up = glm::cross(axes_.x, axes_.y);
-        const float scale = glm::dot(up, up);
-        dual_x_ = glm::cross(axes_.y, up) / scale;
-        dual_y_ = glm::cross(up, axes_.x) / scale;
-    }
-
-    float unshadowed(const SurfacePoint& receiver) const override {
-        VisiblePart part;
-        return visible_part(receiver.position, part) ? polygon_of(part).unshadowed(receiver) : 0;
-    }
-
-    LightSample sample(const SurfacePoint& receiver, const vec2& u) const override {
-        VisiblePart part;
-        if (!visible_part(receiver.position, part)) return {};
-        LightSample s = polygon_of(part).sample(receiver, u);
-        s.radiance = radiance_ * area_lamp_spread(lamp_, -s.direction);
-        const vec3 offset = s.target - center_;
-        const vec2 local(glm::dot(offset, dual_x_), glm::dot(offset, dual_y_));
-        if (lamp_.shape == AreaShape::kEllipse && glm::dot(local, local) > 1) s.radiance = vec3(0);
-        return s;
-    }
-
-    EmitterBounds bounds() const override {
-        EmitterBounds b;
-        b.center = center_;
-        b.radius = glm::length(axes_.x) + glm::length(axes_.y);
-        b.power = luminance(radiance_) * area_lamp_spread(lamp_, normal_) * axes_.area(lamp_.shape);
-        b.axis = normal_;
-        b.cos_spread = std::cos(lamp_.spread / 2);
-        b.cosine = false;
-        return b;
-    }
-
-private:
-    struct VisiblePart {
-        vec2 low, high;  // -1..1 in the lamp's axes
-    };
-
-    bool visible_part(const vec3& p, VisiblePart& part) const {
-        const vec3 from = p - center_;
-        const float height = glm::dot(from, normal_);
-        if (height <= epsilon_) return false;
-        const vec2 foot(glm::dot(from, dual_x_), glm::dot(from, dual_y_));
-        const float reach = height * tan_half_;
-        const vec2 half(reach * glm::length(dual_x_), reach * glm::length(dual_y_));
-        part.low = glm::max(foot - half, vec2(-1));
-        part.high = glm::min(foot + half, vec2(1));
-        return part.low.x < part.high.x && part.low.y < part.high.y;
-    }
-
-    [[nodiscard]] PolygonEmitter polygon_of(const VisiblePart& part) const {
-        const auto at = [&](float x, float y) { return center_ + axes_.x * x + axes_.y * y; };
-        std::array<vec3, 4> corners{at(part.low.x, part.low.y), at(part.low.x, part.high.y),
-                                    at(part.high.x, part.high.y), at(part.high.x, part.low.y)};
-        if (glm::dot(glm::cross(axes_.x, axes_.y), normal_) > 0) std::swap(corners[1], corners[3]);
-        return {corners, 4, radiance_, false, epsilon_};
-    }
-
-    Lamp lamp_;
-    vec3 center_;
-    AreaAxes axes_;
-    vec3 normal_;
-    vec3 radiance_;
-    vec3 dual_x_, dual_y_;  // 1/m: turn an offset in the lamp's plane into its axes' coordinates
-    float tan_half_;
-    float epsilon_;
 };
 
 }  // namespace
@@ -318,8 +204,8 @@ EmitterPtr make_lamp_emitter(const Lamp& lamp, float epsilon) {
         case LampType::kArea:
             break;
     }
-    if (lamp.spread < kPi) return std::make_unique<SpreadEmitter>(lamp, epsilon);
-    if (lamp.shape == AreaShape::kEllipse) return std::make_unique<EllipseEmitter>(lamp, epsilon);
+    if (lamp.spread < kPi) return make_spread_emitter(lamp, epsilon);
+    if (lamp.shape == AreaShape::kEllipse) return make_ellipse_emitter(lamp, epsilon);
     return std::make_unique<PolygonEmitter>(area_lamp_corners(lamp), 4, area_lamp_radiance(lamp),
                                             false, epsilon);
 }

@@ -12,7 +12,9 @@ namespace antiradiance {
 namespace {
 
 constexpr std::uint32_t kStrata = 16;  // of PatchTree::exposed_mask, 4 x 4
-constexpr int kMostRays = 256;         // for each emitter and leaf
+constexpr int kFirstRays = 16;         // for each emitter and leaf, before a look at the error
+constexpr int kMostRays = 256;
+constexpr std::size_t kMapPoints = 4;  // of a leaf that shadow maps light
 constexpr std::size_t kBlock = 16;     // leaves; a few ms
 
 // One point in every exposed stratum of a leaf; `pass` moves it inside its stratum.
@@ -51,18 +53,43 @@ vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId lea
     return estimate.mean();
 }
 
+bool can_be_lit(const PatchTree& tree, NodeId leaf) {
+    return !tree.is_cluster(leaf) && !tree.emits_only(leaf);
+}
+
+std::vector<vec3> mapped_leaves(const DirectLight& light, const PatchTree& tree,
+                                Progress& progress) {
+    std::vector<SurfacePoint> points;
+    std::vector<std::uint32_t> ends;
+    std::vector<SurfacePoint> of_leaf;
+    for (const NodeId leaf : tree.leaves) {
+        if (can_be_lit(tree, leaf)) {
+            leaf_points(tree, leaf, 0, of_leaf);
+            const std::vector<SurfacePoint> few = spread_choice(of_leaf, kMapPoints);
+            points.insert(points.end(), few.begin(), few.end());
+        }
+        ends.push_back(static_cast<std::uint32_t>(points.size()));
+    }
+    const std::vector<vec3> means = light.mapped_irradiance(points, ends, progress, {});
+    std::vector<vec3> irradiance(tree.size(), vec3(0));
+    for (std::size_t i = 0; i < means.size(); ++i)
+        irradiance[static_cast<std::size_t>(tree.leaves[i])] = means[i];
+    return irradiance;
+}
+
 }  // namespace
 
 std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& progress) const {
     std::vector<vec3> irradiance(tree.size(), vec3(0));
     if (!any()) return irradiance;
+    if (has_maps()) return mapped_leaves(*this, tree, progress);
     parallel_for_blocks(
         tree.leaves.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
             std::vector<SurfacePoint> points;
             for (std::size_t i = begin; i < end; ++i) {
                 progress.check();
                 const NodeId leaf = tree.leaves[i];
-                if (tree.is_cluster(leaf) || tree.emits_only(leaf)) continue;
+                if (!can_be_lit(tree, leaf)) continue;
                 irradiance[static_cast<std::size_t>(leaf)] = leaf_mean(*impl_, tree, leaf, points);
             }
         });

@@ -71,12 +71,13 @@ ColourRange sample_emission(const Scene& scene, TriangleId t, const Barycentric&
     return range;
 }
 
-class MeshEmitters {
+class EmitterMaker {
 public:
-    MeshEmitters(const Scene& scene, float epsilon) : scene_(scene), epsilon_(epsilon) {}
+    EmitterMaker(const Scene& scene, float epsilon) : scene_(scene), epsilon_(epsilon) {}
 
-    std::vector<EmitterPtr> make() {
+    MeshEmitters make() {
         find_depth();
+        of_triangle_.assign(scene_.triangles.size(), kNone);
         const auto count = static_cast<TriangleId>(scene_.triangles.size());
         for (TriangleId t = 0; t < count; ++t) {
             const Material& material = material_of(t);
@@ -90,7 +91,10 @@ public:
                               (t == 0 || !same_polygon(t, t - 1)) &&
                               (t + 2 >= count || !same_polygon(t, t + 2));
             const auto quad = pair ? join_to_quad(scene_, t, t + 1) : std::nullopt;
+            const auto number = static_cast<std::int32_t>(emitters_.size());
+            of_triangle_[static_cast<std::size_t>(t)] = number;
             if (quad) {
+                of_triangle_[static_cast<std::size_t>(t + 1)] = number;
                 emitters_.push_back(
                     std::make_unique<PolygonEmitter>(*quad, 4, material.emission, true, epsilon_));
                 ++t;
@@ -98,7 +102,7 @@ public:
                 add_piece(t, {vec2(0, 0), vec2(1, 0), vec2(0, 1)}, material.emission);
             }
         }
-        return std::move(emitters_);
+        return {std::move(emitters_), std::move(of_triangle_)};
     }
 
 private:
@@ -168,12 +172,13 @@ private:
     int depth_ = kDeepest;
     float allowed_ = 0;  // luminance, W/(m2 sr)
     std::vector<EmitterPtr> emitters_;
+    std::vector<std::int32_t> of_triangle_;
 };
 
 }  // namespace
 
-std::vector<EmitterPtr> make_mesh_emitters(const Scene& scene, float epsilon) {
-    return MeshEmitters(scene, epsilon).make();
+MeshEmitters make_mesh_emitters(const Scene& scene, float epsilon) {
+    return EmitterMaker(scene, epsilon).make();
 }
 
 }  // namespace antiradiance

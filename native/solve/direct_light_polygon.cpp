@@ -47,14 +47,18 @@ float PolygonEmitter::unshadowed(const SurfacePoint& receiver) const {
     return polygon_irradiance({relative.data(), count_}, receiver.shading_normal);
 }
 
-LightSample PolygonEmitter::sample_area(const SurfacePoint& receiver, const vec2& u) const {
+vec3 PolygonEmitter::point_of_area(const vec2& u) const {
     const bool first = u.x < first_share_;
     const float x = first ? u.x / first_share_ : (u.x - first_share_) / (1 - first_share_);
     const vec3& b = first ? corners_[1] : corners_[2];
     const vec3& c = first ? corners_[2] : corners_[3];
     const float root = std::sqrt(x);
+    return corners_[0] * (1 - root) + b * (root * (1 - u.y)) + c * (root * u.y);
+}
+
+LightSample PolygonEmitter::sample_area(const SurfacePoint& receiver, const vec2& u) const {
     LightSample s;
-    s.target = corners_[0] * (1 - root) + b * (root * (1 - u.y)) + c * (root * u.y);
+    s.target = point_of_area(u);
     const vec3 to = s.target - receiver.position;
     const float distance2 = glm::dot(to, to);
     s.distance = std::sqrt(distance2);
@@ -109,6 +113,24 @@ LightSample PolygonEmitter::sample(const SurfacePoint& receiver, const vec2& u) 
     return s;
 }
 
+float PolygonEmitter::density(const SurfacePoint& receiver, const vec3& direction) const {
+    const vec3 to_center = center_ - receiver.position;
+    const float slope = glm::dot(direction, normal_);
+    if (area_ < kSmallSolidAngle * glm::dot(to_center, to_center)) {
+        const float distance = glm::dot(to_center, normal_) / slope;
+        return distance * distance / (area_ * std::abs(slope));
+    }
+    const auto direction_to = [&](std::size_t i) {
+        return glm::normalize(corners_[i] - receiver.position);
+    };
+    float omega = 0;
+    for (std::size_t i = 2; i < count_; ++i) {
+        omega +=
+            SphericalTriangle(direction_to(0), direction_to(i - 1), direction_to(i)).solid_angle();
+    }
+    return omega > 0 ? 1 / omega : 0.0F;
+}
+
 EmitterBounds PolygonEmitter::bounds() const {
     EmitterBounds b;
     b.center = center_;
@@ -119,6 +141,25 @@ EmitterBounds PolygonEmitter::bounds() const {
     b.axis = normal_;
     b.two_sided = two_sided_;
     return b;
+}
+
+// Of one that shines from both sides, every second point is of its back.
+EmitterPoint PolygonEmitter::point(std::uint32_t index) const {
+    const bool back = two_sided_ && index % 2 == 1;
+    const vec3 axis = back ? -normal_ : normal_;
+    const vec2 u = r2_sample(two_sided_ ? index / 2 : index, kPointSeed);
+    // A map without a fold keeps the even spread of few points.
+    const vec3 diagonal = corners_[1] - corners_[0] + corners_[3] - corners_[0];
+    const bool is_parallelogram =
+        count_ == 4 && glm::distance(corners_[0] + diagonal, corners_[2]) <= epsilon_;
+    const vec3 at = is_parallelogram ? corners_[0] + u.x * (corners_[1] - corners_[0]) +
+                                           u.y * (corners_[3] - corners_[0])
+                                     : point_of_area(u);
+    return {at + axis * epsilon_, axis, kPi / 2};
+}
+
+float PolygonEmitter::weight(const SurfacePoint& receiver, const EmitterPoint& point) const {
+    return point_to_point(receiver.position, receiver.shading_normal, point.position, point.axis);
 }
 
 }  // namespace antiradiance

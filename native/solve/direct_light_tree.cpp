@@ -21,6 +21,11 @@ EmitterTree::EmitterTree(std::span<const EmitterBounds> bounds) {
     std::iota(members.begin(), members.end(), 0);
     nodes_.reserve(2 * bounds.size());
     build(bounds, members);
+    leaf_.resize(bounds.size());
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        if (nodes_[n].emitter != kNone)
+            leaf_[static_cast<std::size_t>(nodes_[n].emitter)] = static_cast<std::int32_t>(n);
+    }
 }
 
 EmitterTree::Node EmitterTree::merge(std::span<const EmitterBounds> bounds,
@@ -138,6 +143,28 @@ void EmitterTree::choose(const ReceiverBounds& receivers, std::uint32_t count, f
             stack.push_back({s.node + 1, s.from, cut, s.begin, middle});
         }
     }
+}
+
+double EmitterTree::probability(const ReceiverBounds& receivers, std::int32_t emitter) const {
+    const std::int32_t leaf = leaf_[static_cast<std::size_t>(emitter)];
+    double probability = 1;
+    for (std::int32_t n = 0; n != leaf;) {
+        const std::int32_t second = nodes_[static_cast<std::size_t>(n)].second;
+        const double a = importance(nodes_[static_cast<std::size_t>(n + 1)], receivers);
+        const double b = importance(nodes_[static_cast<std::size_t>(second)], receivers);
+        if (a + b <= 0) return 0;
+        probability *= (leaf < second ? a : b) / (a + b);
+        n = leaf < second ? n + 1 : second;
+    }
+    return probability;
+}
+
+std::vector<std::int32_t> EmitterTree::emitters() const {
+    std::vector<std::int32_t> emitters;
+    for (const Node& node : nodes_) {
+        if (node.emitter != kNone) emitters.push_back(node.emitter);
+    }
+    return emitters;
 }
 
 }  // namespace antiradiance

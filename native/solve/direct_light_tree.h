@@ -35,6 +35,12 @@ public:
     void choose(const ReceiverBounds& receivers, std::uint32_t count, float offset,
                 std::vector<EmitterChoice>& choices) const;
 
+    // Of an emitter, as choose() takes it.
+    [[nodiscard]] double probability(const ReceiverBounds& receivers, std::int32_t emitter) const;
+
+    // All emitters, neighbours one after the other.
+    [[nodiscard]] std::vector<std::int32_t> emitters() const;
+
 private:
     struct Node {
         vec3 center{0};
@@ -53,7 +59,8 @@ private:
     static Node merge(std::span<const EmitterBounds> bounds, std::span<const std::int32_t> members);
     static double importance(const Node& node, const ReceiverBounds& receivers);
 
-    std::vector<Node> nodes_;
+    std::vector<Node> nodes_;         // preorder
+    std::vector<std::int32_t> leaf_;  // of each emitter, into nodes_
 };
 
 }  // namespace antiradiance

@@ -4,8 +4,9 @@
 namespace antiradiance {
 
 enum class DirectLightMode {
-    kExplicit,  // lamps and emissive meshes by shadow rays; links carry the indirect light
-    kImplicit,  // emissive meshes and area lamps emit along links; other lamps by shadow rays
+    kExplicit,    // lamps and emissive meshes by shadow rays; links carry the indirect light
+    kImplicit,    // emissive meshes and area lamps emit along links; other lamps by shadow rays
+    kShadowMaps,  // as kExplicit, by shadow maps in OpenGL
 };
 
 enum class SolverChoice { kAuto, kOpenGL, kCpu };

@@ -2,7 +2,11 @@
 // Direct light on the leaves, and the picture.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <string>
+
 #include "display/display.h"
+#include "gpu/gl_thread.h"
 #include "meter.h"
 #include "stages.h"
 
@@ -22,6 +26,40 @@ void direct_light(benchmark::State& state) {
     meter.report("leaves", static_cast<double>(room.model.tree.leaves.size()), sizeof(vec3));
 }
 BENCHMARK(direct_light)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+// The same leaves by shadow maps, and the drawing of the maps.
+void shadow_maps(benchmark::State& state) {
+    const Stages& room = stages(Visibility::kExplicit);
+    std::string why_not;
+    if (!gpu::GlThread::shared(why_not)) return state.SkipWithError(why_not.c_str());
+    Progress progress;
+    const DirectLight maps(room.scene, room.model.rays, DirectLightMode::kShadowMaps, progress);
+    Meter meter(state);
+    for (auto _ : state) {
+        meter.time(
+            [&] { benchmark::DoNotOptimize(maps.leaf_irradiance(room.model.tree, progress)); });
+    }
+    meter.report("leaves", static_cast<double>(room.model.tree.leaves.size()), sizeof(vec3));
+}
+BENCHMARK(shadow_maps)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+void draw_shadow_maps(benchmark::State& state) {
+    const Stages& room = stages(Visibility::kExplicit);
+    std::string why_not;
+    if (!gpu::GlThread::shared(why_not)) return state.SkipWithError(why_not.c_str());
+    Progress progress;
+    DirectLight::Maps drawn;
+    Meter meter(state);
+    for (auto _ : state) {
+        meter.time([&] {
+            drawn = DirectLight(room.scene, room.model.rays, DirectLightMode::kShadowMaps, progress)
+                        .maps();
+        });
+    }
+    meter.report("images", static_cast<double>(drawn.images),
+                 static_cast<double>(drawn.bytes / std::max<std::size_t>(drawn.images, 1)));
+}
+BENCHMARK(draw_shadow_maps)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 void display(benchmark::State& state, const DisplayOptions& options) {
     const Stages& room = stages(Visibility::kExplicit);

@@ -23,6 +23,12 @@ Scene valid_room() {
     return scene;
 }
 
+std::unique_ptr<DirectLight> direct_light_of(const Scene& scene, const RayScene& rays,
+                                             DirectLightMode mode) {
+    Progress progress;
+    return std::make_unique<DirectLight>(scene, rays, mode, progress);
+}
+
 Model model_of(const Scene& scene, const Options& options) {
     Progress progress;
     return build_model(scene, options, progress);
@@ -34,7 +40,7 @@ Stages::Stages(Visibility visibility)
     : options(options_of(visibility)),
       scene(valid_room()),
       model(model_of(scene, options)),
-      direct(std::make_unique<DirectLight>(scene, model.rays, options.direct_light)) {
+      direct(direct_light_of(scene, model.rays, options.direct_light)) {
     Progress progress;
     source = direct->leaf_irradiance(model.tree, progress);
     for (std::size_t n = 0; n < source.size(); ++n)

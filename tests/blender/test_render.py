@@ -309,11 +309,12 @@ def test_options_are_those_of_the_issue(in_blender):
     """Names, defaults and items: files and scripts of artists depend on them."""
     assert in_blender("options.py") == json.loads("""{
         "visibility": ["EXPLICIT", ["IMPLICIT", "EXPLICIT"]],
-        "direct_light": ["EXPLICIT", ["EXPLICIT", "IMPLICIT"]],
+        "direct_light": ["EXPLICIT", ["EXPLICIT", "IMPLICIT", "SHADOW_MAPS"]],
         "direction_bins": [128, null], "iterations": [0, null], "link_threshold": [0.02, null],
         "max_patch_size": [0.0, null], "visibility_rays": [4, null],
         "solver": ["AUTO", ["AUTO", "OPENGL", "CPU"]], "display": ["FINAL_SHOOTING", ["PATCHES", "SPLATTING", "FINAL_SHOOTING"]],
         "shooting_level": ["CUT", ["LEAVES", "PARENTS", "CUT"]],
         "shooting_visibility": ["AUTO", ["AUTO", "ANTIRADIANCE", "RAYS"]],
         "shooting_samples": [8, null], "interleave": [1, null], "bin_map_size": [256, null],
+        "direct_samples": [16, null],
         "report_path": ["", null]}""")

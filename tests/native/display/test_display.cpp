@@ -36,20 +36,21 @@ struct Stage {
     Scene scene;
     RayScene rays;
     PatchTree tree;
+    Progress progress;
     DirectLight direct;
     std::vector<vec3> irradiance;  // #nodes
-    Progress progress;
 
     explicit Stage(const Scene& s, float max_edge = 0.5F)
         : scene(s),
           rays(scene),
           tree(test::front_tree(scene, max_edge)),
-          direct(scene, rays, DirectLightMode::kExplicit),
+          direct(scene, rays, DirectLightMode::kExplicit, progress),
           irradiance(tree.size(), vec3(0)) {}
 
     GBuffer gbuffer(int samples_per_axis = 4, bool transparent = false) {
-        return make_gbuffer({scene, rays, tree, direct, irradiance, transparent, samples_per_axis},
-                            progress, {0, 1});
+        return make_gbuffer(
+            {scene, rays, tree, direct, irradiance, transparent, samples_per_axis, 16}, progress,
+            {0, 1});
     }
     Picture picture(bool transparent = false) {
         const std::unique_ptr<DisplayBackend> backend = make_cpu_display();

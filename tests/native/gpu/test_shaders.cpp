@@ -121,7 +121,7 @@ TEST_F(ShaderTest, ComputesOnABuffer) {
 }
 
 // Every compute shader of the repository, as it stands; the solver's own tests compile its
-// variants.
+// variants, those of shadow maps what they draw with.
 TEST_F(ShaderTest, AllComputeShadersCompile) {
     int count = 0;
     const fs::path folder = shader_folder();

@@ -29,8 +29,8 @@ Model modelled(const Scene& scene, const Options& options) {
 LitScene::LitScene(const Scene& made, const Options& options)
     : scene(validated(made)), model(modelled(scene, options)) {
     Progress progress;
-    direct =
-        DirectLight(scene, model.rays, options.direct_light).leaf_irradiance(model.tree, progress);
+    direct = DirectLight(scene, model.rays, options.direct_light, progress)
+                 .leaf_irradiance(model.tree, progress);
     input = make_transport_input(model.tree, direct, options.direct_light);
 }
 

@@ -34,6 +34,7 @@ TEST(Options, DefaultsAreThoseOfTheManual) {
     EXPECT_EQ(o.visibility_rays, 4);
     EXPECT_EQ(o.solver, SolverChoice::kAuto);
     EXPECT_EQ(o.display, DisplayMode::kFinalShooting);
+    EXPECT_EQ(o.direct_samples, 16);
     EXPECT_EQ(o.report_path, "");
 }
 
@@ -51,7 +52,7 @@ TEST(Options, SchemaHoldsEveryOptionOnce) {
                          {"visibility", "direct_light", "direction_bins", "iterations",
                           "link_threshold", "max_patch_size", "visibility_rays", "solver",
                           "display", "shooting_level", "shooting_visibility", "shooting_samples",
-                          "bin_map_size", "interleave", "report_path"}));
+                          "bin_map_size", "interleave", "direct_samples", "report_path"}));
 }
 
 TEST(Options, DefaultsLieWithinTheirLimits) {

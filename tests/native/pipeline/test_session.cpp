@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/error.h"
+#include "gpu/gl_thread.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
 
@@ -112,14 +114,14 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     options.visibility = Visibility::kImplicit;
     const RenderResult result = render(test::office(), options);
     const nlohmann::json json = file.read();
-    EXPECT_EQ(keys(json),
-              std::set<std::string>({"patches", "leaves", "links", "solve", "display", "stages",
-                                     "timings_s", "peak_memory_bytes", "warnings", "error"}));
+    EXPECT_EQ(keys(json), std::set<std::string>({"patches", "leaves", "links", "direct", "solve",
+                                                 "display", "stages", "timings_s",
+                                                 "peak_memory_bytes", "warnings", "error"}));
     EXPECT_EQ(
         json["stages"],
         nlohmann::json(
             {{"model", "run"}, {"direct_light", "run"}, {"solve", "run"}, {"display", "run"}}));
-    // bytes and reason come on top of what was agreed on.
+    // direct, bytes and reason come on top of what was agreed on.
     EXPECT_EQ(keys(json["links"]),
               std::set<std::string>({"radiance", "antiradiance", "total", "bytes"}));
     EXPECT_EQ(keys(json["solve"]), std::set<std::string>({"backend", "renderer", "reason",
@@ -200,6 +202,61 @@ TEST(Session, AReportOfACallerThatHadNoScene) {
     EXPECT_EQ(json["error"], "no camera");
     EXPECT_EQ(json["warnings"], nlohmann::json({"a warning"}));
     EXPECT_EQ(json["timings_s"]["sync"].get<double>(), 1.5);
+}
+
+// As above, in final shooting: with explicit direct light the walls shoot what they reflect, and
+// the shadow rays bring what they emit. Either of them twice would add half of the light.
+TEST(Session, AFurnaceFillsThePictureInFinalShooting) {
+    for (const Visibility visibility : {Visibility::kExplicit, Visibility::kImplicit}) {
+        for (const DirectLightMode direct :
+             {DirectLightMode::kExplicit, DirectLightMode::kImplicit}) {
+            Options options = quick();
+            options.display = DisplayMode::kFinalShooting;
+            options.visibility = visibility;
+            options.direct_light = direct;
+            const RenderResult result = render(furnace(), options);
+            ASSERT_EQ(result.picture.combined.size(), 24U * 16U);
+            double mean = 0;
+            for (const vec4& p : result.picture.combined)
+                mean += p.x / (24.0 * 16.0);
+            std::cout << "mean of the picture: " << mean / 2 << " of the answer\n";
+            EXPECT_NEAR(mean / 2, 1, 0.002);  // measured .0002
+        }
+    }
+}
+
+TEST(Session, ShadowMapsLightAFurnaceAndAreReported) {
+    Options options = quick();
+    options.direct_light = DirectLightMode::kShadowMaps;
+    std::string why_not;
+    if (!gpu::GlThread::shared(why_not)) GTEST_SKIP() << why_not;
+    const RenderResult result = render(furnace(), options);
+    double mean = 0;
+    for (const vec4& p : result.picture.combined)
+        mean += p.x / (24.0 * 16.0);
+    // The walls' light on each other by some dozens of points a wall, in the corners by few.
+    EXPECT_NEAR(mean / 2, 1, 0.02);
+    EXPECT_GT(result.report.direct.shadow_maps, 100U);
+    EXPECT_GT(result.report.direct.bytes, 1U << 20U);
+    EXPECT_EQ(render(furnace(), quick()).report.direct.shadow_maps, 0U);
+}
+
+TEST(Session, ShadowMapsWithoutOpenGlSayWhatToDo) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";  // a fresh process, without a context
+    const auto render_without = [] {
+        setenv("ANTIRADIANCE_NO_OPENGL", "1", 1);
+        Options options = quick();
+        options.direct_light = DirectLightMode::kShadowMaps;
+        try {
+            render(furnace(), options);
+        } catch (const SceneError& e) {
+            std::cerr << e.what();
+            std::exit(0);
+        }
+        std::exit(1);
+    };
+    EXPECT_EXIT(render_without(), testing::ExitedWithCode(0),
+                "Direct Light is Shadow Maps.*switched off.*set Direct Light to Explicit");
 }
 
 TEST(Session, ASceneWithoutLightIsBlackWithAWarning) {

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iostream>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -22,17 +23,18 @@ const vec3 kY(0, 1, 0);
 
 struct Stage {
     explicit Stage(const Scene& s, DirectLightMode mode = DirectLightMode::kExplicit)
-        : scene(s), rays(scene), light(scene, rays, mode) {}
+        : scene(s), rays(scene), light(scene, rays, mode, progress) {}
     // Mean over a horizontal square around p.
-    [[nodiscard]] vec3 at(const vec3& p, const vec3& n = kUp, float size = 0, int rays_each = 1024,
+    [[nodiscard]] vec3 at(const vec3& p, const vec3& n = kUp, float size = 0, int samples = 64,
                           std::uint32_t seed = 1) const {
         std::vector<SurfacePoint> points;
         for (std::uint32_t i = 0; i < 16; ++i) {
             const vec2 d = (r2_sample(i, 3) - 0.5F) * size;
             points.push_back({p + vec3(d, 0), n, n});
         }
-        return light.irradiance(points, rays_each, 0, seed);
+        return light.irradiance(points, samples, 0, seed);
     }
+    Progress progress;
     Scene scene;
     RayScene rays;
     DirectLight light;
@@ -111,6 +113,33 @@ TEST(DirectLight, unshadowed_light_has_no_noise) {
     }
 }
 
+// Half of a lamp hidden, by few rays and by many: what is left is noise. A pixel without a shadow's
+// edge is exact with the fewest rays.
+TEST(DirectLight, samples_set_the_noise_of_a_penumbra) {
+    Scene scene;
+    test::add_quad(scene, "blocker", vec3(-9, -5, 1), 9.0F * kX, 10.0F * kY, kNone);
+    scene.lamps.push_back(point_lamp(vec3(0, 0, 2), 1, 0.3F));
+    const Stage stage(scene);
+    const auto deviation = [&](int samples) {
+        constexpr std::uint32_t kSeeds = 64;
+        double squares = 0;
+        for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+            const double error = stage.at(vec3(0), kUp, 0, samples, seed).x / 0.125 - 1;
+            squares += error * error / kSeeds;
+        }
+        return std::sqrt(squares);
+    };
+    const double few = deviation(4);
+    const double standard = deviation(16);
+    const double many = deviation(256);
+    std::cout << "noise with 4, 16, 256 samples: " << few << ", " << standard << ", " << many
+              << "\n";
+    EXPECT_LT(standard, 0.03);  // about what an eye sees
+    EXPECT_LT(standard, few);
+    EXPECT_LT(many, standard / 3);
+    EXPECT_NEAR(stage.at(vec3(1, 0, 0), kUp, 0, 4).x, 2 / std::pow(5.0, 1.5), 1e-5);
+}
+
 TEST(DirectLight, an_emissive_face_shines_from_both_sides) {
     Scene scene;
     const int m = test::add_material(scene, vec3(0), vec3(1, 2, 3));
@@ -158,7 +187,7 @@ TEST(DirectLight, textured_emission_weighs_every_part) {
     // Lit half: the unit square over x in [-1, 0]; its corner is above the origin. Two columns of
     // the texture blend into each other: 1.5 % of the width, and cells of 1/16 average over them.
     const auto lit = static_cast<float>(2 * kPi * corner_factor(1));
-    EXPECT_NEAR(stage.at(vec3(0), kUp, 0, 1024).x, lit, 0.03F * lit);
+    EXPECT_NEAR(stage.at(vec3(0), kUp, 0, 64).x, lit, 0.03F * lit);
     // Below the dark half's far corner there is less light than below the lit half's.
     EXPECT_GT(stage.at(vec3(-1, 0, 0)).x, 1.5F * stage.at(vec3(1, 0, 0)).x);
 }
@@ -199,7 +228,7 @@ TEST(DirectLight, many_emitters_add_up) {
         double mean = 0;
         const int seeds = 64;
         for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-            const float e = stage.at(p, kUp, 0, 256, seed).x;
+            const float e = stage.at(p, kUp, 0, 16, seed).x;
             // One estimate of 64 to 256 choices.
             EXPECT_NEAR(e, expected, 0.1 * expected) << "seed " << seed;
             mean += e / seeds;
@@ -226,8 +255,8 @@ TEST(DirectLight, is_deterministic) {
     test::add_quad(scene, "blocker", vec3(-9, -5, 1), 9.0F * kX, 10.0F * kY, kNone);
     scene.lamps.push_back(point_lamp(vec3(0, 0, 2), 1, 0.3F));
     const Stage stage(scene);
-    EXPECT_EQ(stage.at(vec3(0), kUp, 0.1F, 64, 5), stage.at(vec3(0), kUp, 0.1F, 64, 5));
-    EXPECT_NE(stage.at(vec3(0), kUp, 0.1F, 64, 5), stage.at(vec3(0), kUp, 0.1F, 64, 6));
+    EXPECT_EQ(stage.at(vec3(0), kUp, 0.1F, 16, 5), stage.at(vec3(0), kUp, 0.1F, 16, 5));
+    EXPECT_NE(stage.at(vec3(0), kUp, 0.1F, 16, 5), stage.at(vec3(0), kUp, 0.1F, 16, 6));
 }
 
 TEST(DirectLight, below_the_geometric_horizon_there_is_no_light) {
@@ -246,8 +275,8 @@ class LeafIrradiance : public testing::Test {
 protected:
     std::vector<vec3> solve(const Scene& scene, const PatchTree& tree) {
         const RayScene rays(scene);
-        const DirectLight light(scene, rays, DirectLightMode::kExplicit);
         Progress progress;
+        const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
         return light.leaf_irradiance(tree, progress);
     }
 };
@@ -328,7 +357,8 @@ TEST_F(LeafIrradiance, inner_nodes_stay_zero_and_cancel_works) {
         EXPECT_EQ(e[n].x > 0, tree.is_leaf(static_cast<NodeId>(n)));
     }
     const RayScene rays(scene);
-    const DirectLight light(scene, rays, DirectLightMode::kExplicit);
+    Progress progress;
+    const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
     Progress cancelled(nullptr, [] { return true; });
     cancelled.cancel();
     EXPECT_THROW(std::ignore = light.leaf_irradiance(tree, cancelled), Cancelled);

@@ -19,11 +19,12 @@ Scene empty_stage(const Lamp& lamp) {
     return scene;
 }
 
-vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int rays = 1024) {
+vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int samples = 64) {
     const RayScene ray_scene(scene);
-    const DirectLight light(scene, ray_scene, DirectLightMode::kExplicit);
+    Progress progress;
+    const DirectLight light(scene, ray_scene, DirectLightMode::kExplicit, progress);
     const SurfacePoint point{p, n, n};
-    return light.irradiance({&point, 1}, rays, 0, 7);
+    return light.irradiance({&point, 1}, samples, 0, 7);
 }
 
 Lamp lamp_at(LampType type, const vec3& position, float power) {
@@ -194,7 +195,7 @@ vec3 pixel_center(float i, float j) {
 float mean_over_seeds(const DirectLight& light, std::span<const SurfacePoint> points, int seeds) {
     float sum = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-        sum += light.irradiance(points, 1024, 0, static_cast<std::uint32_t>(seed)).x;
+        sum += light.irradiance(points, 64, 0, static_cast<std::uint32_t>(seed)).x;
     }
     return sum / static_cast<float>(seeds);
 }
@@ -205,7 +206,8 @@ TEST(DirectLightLamps, agree_with_cycles) {
         SCOPED_TRACE(c.name);
         const Scene scene = empty_stage(c.lamp);
         const RayScene rays(scene);
-        const DirectLight light(scene, rays, DirectLightMode::kExplicit);
+        Progress progress;
+        const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
         std::vector<SurfacePoint> all;
         for (int j = 0; j < 128; ++j) {
             for (int i = 0; i < 128; ++i) {

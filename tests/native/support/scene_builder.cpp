@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/scene_builder.h"
 
+#include <cmath>
+
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
@@ -70,6 +72,24 @@ void add_box(Scene& scene, const std::string& name, const vec3& low, const vec3&
     mesh.triangle_polygon = polygons.data();
     mesh.slot_materials = {material};
     add_mesh(scene, mesh);
+}
+
+void add_ball(Scene& scene, const std::string& name, const vec3& center, float radius, int rings,
+              int material) {
+    const auto at = [&](int i, int j) {
+        const float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
+        const float phi = kPi * static_cast<float>(j) / static_cast<float>(rings);
+        return center + radius * vec3(std::sin(theta) * std::cos(phi),
+                                      std::sin(theta) * std::sin(phi), std::cos(theta));
+    };
+    for (int i = 0; i < rings; ++i) {
+        for (int j = 0; j < 2 * rings; ++j) {
+            const std::vector<vec3> upper{at(i, j), at(i + 1, j), at(i, j + 1)};
+            const std::vector<vec3> lower{at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+            if (i > 0) add_polygon(scene, name, upper, material);
+            if (i + 1 < rings) add_polygon(scene, name, lower, material);
+        }
+    }
 }
 
 void add_point_lamp(Scene& scene, const vec3& position, const vec3& watts) {
