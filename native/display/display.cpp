@@ -110,16 +110,17 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
 struct Mode {
     DisplayMode mode;
     IndirectLight indirect;
+    bool by_leaf;  // shows the leaves apart
 };
 constexpr Mode kModes[] = {
-    {DisplayMode::kPatches, &patch_irradiance},
-    {DisplayMode::kSplatting, &splatted_irradiance},
-    {DisplayMode::kFinalShooting, &shot_irradiance},
+    {DisplayMode::kPatches, &patch_irradiance, true},
+    {DisplayMode::kSplatting, &splatted_irradiance, false},
+    {DisplayMode::kFinalShooting, &shot_irradiance, false},
 };
 
-IndirectLight indirect_light_of(DisplayMode mode) {
+const Mode& find_mode(DisplayMode mode) {
     for (const Mode& m : kModes) {
-        if (m.mode == mode) return m.indirect;
+        if (m.mode == mode) return m;
     }
     throw std::logic_error("a display mode without a row in kModes");
 }
@@ -134,13 +135,15 @@ bool uses_backend(const DisplayOptions& options) {
 
 Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
                      DisplayBackend& backend, Progress& progress) {
+    const Mode& mode = find_mode(options.mode);
+    // Links are cut for each leaf by itself.
+    const bool by_leaf = mode.by_leaf || input.links_removed;
     GBuffer buffer =
-        make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct,
+        make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct, by_leaf,
                       input.film_transparent, input.samples_per_axis, options.direct_samples},
                      progress, {0, kGBufferShare});
     std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));
-    if (input.tree.size() > 0)
-        indirect = indirect_light_of(options.mode)(input, options, buffer, backend, progress);
+    if (input.tree.size() > 0) indirect = mode.indirect(input, options, buffer, backend, progress);
     Picture picture;
     picture.width = buffer.width;
     picture.height = buffer.height;

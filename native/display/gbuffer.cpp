@@ -21,7 +21,7 @@ constexpr std::size_t kMapPoints = 4;  // of a fragment that shadow maps light
 
 // A fragment while its pixel's samples come in.
 struct OpenFragment {
-    std::int64_t key = 0;  // the leaf, or the triangle side where there is none
+    std::int64_t key = 0;  // the leaf or surface, or the triangle side where there is none
     NodeId leaf = kNone;
     vec3 albedo{0};    // sum over samples
     vec3 emission{0};  // sum over samples
@@ -117,9 +117,7 @@ private:
         const float side = hit.back_side ? -1.0F : 1.0F;
         const vec3 normal = side * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
         const NodeId leaf = in_.tree.lookup(hit.triangle, hit.back_side, point);
-        OpenFragment& fragment = find(
-            leaf != kNone ? leaf : -1 - (2 * std::int64_t{hit.triangle} + (hit.back_side ? 1 : 0)));
-        fragment.leaf = leaf;
+        OpenFragment& fragment = find(key_of(hit, leaf), leaf);
         fragment.points.push_back(
             {point, normal, side * scene.shading_normal_at(hit.triangle, hit.barycentric)});
         if (lamps_.any()) {
@@ -138,13 +136,19 @@ private:
         return leaf == kNone ? 0 : luminance(in_.leaf_direct[static_cast<std::size_t>(leaf)]);
     }
 
-    OpenFragment& find(std::int64_t key) {
+    [[nodiscard]] std::int64_t key_of(const RayHit& hit, NodeId leaf) const {
+        if (leaf == kNone) return -1 - (2 * std::int64_t{hit.triangle} + (hit.back_side ? 1 : 0));
+        return in_.by_leaf ? leaf : in_.tree.surface[static_cast<std::size_t>(leaf)];
+    }
+
+    OpenFragment& find(std::int64_t key, NodeId leaf) {
         for (std::size_t i = 0; i < open_count_; ++i) {
             if (open_[i].key == key) return open_[i];
         }
         if (open_count_ == open_.size()) open_.emplace_back();
         OpenFragment& fragment = open_[open_count_++];
         fragment.key = key;
+        fragment.leaf = leaf;
         fragment.albedo = fragment.emission = vec3(0);
         fragment.points.clear();
         return fragment;

@@ -13,12 +13,12 @@
 
 namespace antiradiance {
 
-// The part of a pixel that shows one leaf patch (or one triangle side that no light reaches). All
-// anti-aliasing samples that meet it are shaded as one: a display mode is evaluated once a
-// fragment, about 1.2 times a pixel, and edges are as smooth as all the samples.
+// The part of a pixel that shows one surface, or one leaf of it, or one triangle side that no light
+// reaches. All anti-aliasing samples that meet it are shaded as one: a display mode is evaluated
+// once a fragment, about 1.3 times a pixel, and edges are as smooth as all the samples.
 struct Fragment {
     std::uint32_t pixel = 0;  // into GBuffer's images
-    NodeId leaf = kNone;      // kNone: no link reaches this side
+    NodeId leaf = kNone;      // of its first sample; kNone: no link reaches this side
     float coverage = 0;       // share of the pixel, 0..1
     vec3 position{0};         // m, mean of its samples
     vec3 normal{0};           // unit, of the geometry, towards the viewer
@@ -42,6 +42,7 @@ struct GBufferInput {
     const PatchTree& tree;
     const DirectLight& direct;
     std::span<const vec3> leaf_direct;  // #nodes, W/m2 of direct light on each leaf
+    bool by_leaf;                       // a fragment for each leaf, not for each surface
     bool film_transparent;              // alpha 0 and no radiance where nothing is seen
     int samples_per_axis;               // anti-aliasing: n x n jittered samples a pixel, box filter
     int direct_samples;                 // of DirectLight::irradiance()

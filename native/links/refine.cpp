@@ -298,7 +298,7 @@ private:
         }
         const float ff = patch_form_factor(s, r, minus);
         if (ff <= 0) return;
-        if (!touching || !options_.spread_touching) {
+        if (!touching || !(options_.antiradiance || options_.spread_touching)) {
             add(receiver, source, ff, minus, bins_.bin(d), out);
             return;
         }

@@ -24,9 +24,9 @@ struct RefineOptions {
     float cluster_floor =
         0.02F;                 // m: clusters with smaller radii are not refined against each other
     bool antiradiance = true;  // make - links
-    // Touching links are spread over the bins that they cover; only antiradiance asks for the
-    // direction of light between patches.
-    bool spread_touching = true;
+    // Touching links are spread over the bins that they cover also without - links, for who asks
+    // for the direction of light between patches.
+    bool spread_touching = false;
     std::size_t most_links = SIZE_MAX;  // stop with a SceneError beyond
 };
 

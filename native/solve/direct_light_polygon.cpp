@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "links/form_factor.h"
 #include "solve/direct_light_emitter.h"
 #include "solve/direct_light_geometry.h"
 
@@ -10,9 +11,10 @@ namespace antiradiance {
 
 namespace {
 
-// Below this solid angle (sr), points spread by area have nearly equal weight, at a third of the
-// cost, and the sampling of spherical triangles starts to lose its digits.
-constexpr float kSmallSolidAngle = 0.05F;
+// Below this solid angle (sr), points spread by area differ little in weight, which the estimate's
+// ratio makes up for, at a third of the cost; and the sampling of spherical triangles starts to
+// lose its digits at .05.
+constexpr float kSmallSolidAngle = 0.3F;
 
 }  // namespace
 
@@ -44,7 +46,8 @@ float PolygonEmitter::unshadowed(const SurfacePoint& receiver) const {
     std::array<vec3, 4> relative;
     for (std::size_t i = 0; i < count_; ++i)
         relative[i] = corners_[i] - receiver.position;
-    return polygon_irradiance({relative.data(), count_}, receiver.shading_normal);
+    return kPi *
+           std::abs(point_form_factor(vec3(0), receiver.shading_normal, {relative.data(), count_}));
 }
 
 vec3 PolygonEmitter::point_of_area(const vec2& u) const {

@@ -39,8 +39,8 @@ struct View {
         for (vec3& l : light)
             l = vec3(uniform(random));
         buffer = make_gbuffer(
-            {scene, room.model.rays, room.model.tree, *room.direct, light, false, 4, 16}, progress,
-            {});
+            {scene, room.model.rays, room.model.tree, *room.direct, light, false, false, 4, 16},
+            progress, {});
         antiradiance = antiradiance_table(room.model.tree, room.model.links, light, progress);
     }
     [[nodiscard]] FragmentGroups tiles() const {

@@ -49,8 +49,8 @@ struct Stage {
 
     GBuffer gbuffer(int samples_per_axis = 4, bool transparent = false) {
         return make_gbuffer(
-            {scene, rays, tree, direct, irradiance, transparent, samples_per_axis, 16}, progress,
-            {0, 1});
+            {scene, rays, tree, direct, irradiance, true, transparent, samples_per_axis, 16},
+            progress, {0, 1});
     }
     Picture picture(bool transparent = false) {
         const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
