@@ -82,7 +82,10 @@ bool same_direct_light_input(const StageInput& was, const StageInput& is) {
     const auto same_light = [all](const Lamp& a, const Lamp& b) {
         return (!all && b.type == LampType::kArea) || light(a) == light(b);
     };
+    // Shadow maps leave out the inside of luminous meshes that reflect nothing.
+    const bool maps = is.options.direct_light == DirectLightMode::kShadowMaps;
     return was.options.direct_light == is.options.direct_light &&
+           (!maps || same_albedo(was.scene, is.scene)) &&
            std::ranges::equal(was.scene.lamps, is.scene.lamps, same_light) &&
            (!all || same_emission(was.scene, is.scene));
 }

@@ -42,7 +42,7 @@ public:
 private:
     void forget_changed(const StageInput& input);
 
-    StageInput input_;  // of the last run; results borrow its scene, which stays in this place
+    StageInput input_;  // of the last run
     StageResults results_;
     std::size_t done_ = 0;  // stages whose results fit input_
 };

@@ -22,7 +22,7 @@ std::vector<SurfacePoint> spread_choice(std::span<const SurfacePoint> points, st
 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode,
                          Progress& progress)
-    : impl_(std::make_unique<Impl>(Impl{scene, rays})) {
+    : impl_(std::make_unique<Impl>(Impl{rays})) {
     const float epsilon = rays.epsilon();
     std::vector<EmitterPtr>& emitters = impl_->emitters;
     for (const Lamp& lamp : scene.lamps) {
@@ -58,7 +58,7 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
         }
     }
     if (mode == DirectLightMode::kShadowMaps && any())
-        impl_->mapped = std::make_unique<MappedLight>(*impl_, progress);
+        impl_->mapped = std::make_unique<MappedLight>(*impl_, scene, progress);
 }
 
 DirectLight::~DirectLight() = default;

@@ -32,7 +32,7 @@ public:
 
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links. kShadowMaps
     // draws the maps, and throws SceneError where OpenGL is missing or fails.
-    // Borrows both, which must outlive it.
+    // Borrows the rays, which must outlive it.
     DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode, Progress& progress);
     ~DirectLight();
 

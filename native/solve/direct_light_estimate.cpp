@@ -125,11 +125,11 @@ vec3 IrradianceEstimate::arriving_from(const SurfacePoint& point, const vec3& di
     const double probability = light_.tree.probability(receivers_, in_tree);
     if (probability * kChoices >= kOwnRays) return vec3(0);  // it has its own rays
     const auto index = light_.in_tree[static_cast<std::size_t>(in_tree)];
-    const float density =
-        light_.emitters[static_cast<std::size_t>(index)]->density(point, direction);
+    const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(index)];
+    const float density = emitter.density(point, direction);
     if (density <= 0) return vec3(0);
     const float share = 1 - share_of_choice(point, direction, probability, density);
-    return share * kPi * light_.scene.emission_at(hit.triangle, hit.barycentric);
+    return share * kPi * emitter.sample(point, vec2(0.5F)).radiance;
 }
 
 void IrradianceEstimate::sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,

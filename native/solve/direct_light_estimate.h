@@ -41,7 +41,6 @@ inline constexpr float kLeafTolerance = 0.01F;
 class MappedLight;
 
 struct DirectLight::Impl {
-    const Scene& scene;  // its emission
     const RayScene& rays;
     std::vector<EmitterPtr> emitters{};
     std::vector<std::int32_t> always{};   // into emitters: each gets its own rays

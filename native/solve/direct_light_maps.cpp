@@ -13,8 +13,8 @@ constexpr std::size_t kBlock = 64;  // points; below a millisecond
 
 }  // namespace
 
-MappedLight::MappedLight(const DirectLight::Impl& light, Progress& progress)
-    : emitters_(light), maps_(light.scene, emitters_.points(), light.rays.epsilon(), progress) {}
+MappedLight::MappedLight(const DirectLight::Impl& light, const Scene& scene, Progress& progress)
+    : emitters_(light, scene), maps_(scene, emitters_.points(), light.rays.epsilon(), progress) {}
 
 std::vector<vec3> MappedLight::irradiance(std::span<const SurfacePoint> points,
                                           std::span<const std::uint32_t> ends, Progress& progress,

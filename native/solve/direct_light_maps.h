@@ -14,8 +14,9 @@ namespace antiradiance {
 
 class MappedLight {
 public:
-    // Draws the maps of all emitters, of which there is one at least. Borrows `light`.
-    MappedLight(const DirectLight::Impl& light, Progress& progress);
+    // Draws the maps of all emitters, of which there is one at least. Borrows the emitters of
+    // `light`.
+    MappedLight(const DirectLight::Impl& light, const Scene& scene, Progress& progress);
 
     // DirectLight::mapped_irradiance()
     [[nodiscard]] std::vector<vec3> irradiance(std::span<const SurfacePoint> points,

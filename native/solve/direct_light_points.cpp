@@ -40,86 +40,87 @@ float scale_of(const Emitter& emitter, const SurfacePoint& receiver, float share
     return share / (1 + (share - 1) * filled);
 }
 
-}  // namespace
-
-EmitterPoints::EmitterPoints(const DirectLight::Impl& light) : light_(light) {
-    std::vector<std::int32_t> suns;
-    std::vector<std::int32_t> others;
-    for (const std::int32_t i : light.always) {
-        const bool is_sun = light.emitters[static_cast<std::size_t>(i)]->at_infinity();
-        (is_sun ? suns : others).push_back(i);
-    }
-    // Neighbours in the tree are neighbours in the scene.
-    for (const std::int32_t i : light.tree.emitters())
-        others.push_back(light.in_tree[static_cast<std::size_t>(i)]);
-    if (others.size() <= kMostEmitters) {
-        add_each(others);
-    } else {
-        // Of a closed mesh often one side counts: then there is room for twice as many.
-        add_by_power(others, kMostPoints);
-        if (points_.size() > kMostPoints) add_by_power(others, kMostPoints / 2);
-    }
-    for (const std::int32_t i : suns) {
-        const Emitter& sun = *light.emitters[static_cast<std::size_t>(i)];
-        add(sun, sun.is_point() ? 1 : kSunPoints, 1);
-    }
-}
-
-// Whether any of its light may fall on what reflects it: inside a luminous ball, none does.
-bool EmitterPoints::lights_something(const EmitterPoint& point) const {
-    constexpr std::uint32_t kRays = 16;
-    if (point.is_sun()) return true;
+// Whether any of its light may leave the luminous mesh around it: from inside a ball, none does.
+bool lights_something(const EmitterPoint& point, const Scene& scene, const RayScene& rays) {
+    constexpr std::uint32_t kRays = 256;
+    if (point.reach != kPi / 2) return true;  // no surface
     const Frame frame(point.axis);
     for (std::uint32_t i = 0; i < kRays; ++i) {
         const vec3 direction = frame.to_world(cosine_hemisphere(r2_sample(i, kPointSeed)));
-        const RayHit hit = light_.rays.intersect(point.position, direction);
-        if (!hit.hit()) return true;  // as far as so few rays can tell
+        const RayHit hit = rays.intersect(point.position, direction);
+        if (!hit.hit()) return true;
         const auto t = static_cast<std::size_t>(hit.triangle);
-        const auto m = static_cast<std::size_t>(light_.scene.triangle_material[t]);
-        if (max_component(light_.scene.materials[m].albedo) > 0) return true;
+        const auto m = static_cast<std::size_t>(scene.triangle_material[t]);
+        const Material& material = scene.materials[m];
+        if (!material.emits() || max_component(material.albedo) > 0) return true;
     }
     return false;
 }
 
-void EmitterPoints::add(const Emitter& emitter, std::uint32_t count, float share) {
+}  // namespace
+
+EmitterPoints::EmitterPoints(const DirectLight::Impl& light, const Scene& scene) {
+    const auto at = [&](std::int32_t i) {
+        return light.emitters[static_cast<std::size_t>(i)].get();
+    };
+    std::vector<const Emitter*> suns;
+    std::vector<const Emitter*> others;
+    for (const std::int32_t i : light.always)
+        (at(i)->at_infinity() ? suns : others).push_back(at(i));
+    // Neighbours in the tree are neighbours in the scene.
+    for (const std::int32_t i : light.tree.emitters())
+        others.push_back(at(light.in_tree[static_cast<std::size_t>(i)]));
+    const Filter filter = [&](const EmitterPoint& point) {
+        return lights_something(point, scene, light.rays);
+    };
+    if (others.size() <= kMostEmitters) {
+        add_each(others, filter);
+    } else {
+        // Of a closed mesh often one side counts: then there is room for twice as many.
+        add_by_power(others, kMostPoints, filter);
+        if (points_.size() > kMostPoints) add_by_power(others, kMostPoints / 2, filter);
+    }
+    for (const Emitter* sun : suns)
+        add(*sun, sun->is_point() ? 1 : kSunPoints, 1, filter);
+}
+
+void EmitterPoints::add(const Emitter& emitter, std::uint32_t count, float share,
+                        const Filter& filter) {
     const auto begin = static_cast<std::uint32_t>(points_.size());
     for (std::uint32_t i = 0; i < count; ++i) {
         const EmitterPoint point = emitter.point(i);
-        if (lights_something(point)) points_.push_back(point);
+        if (filter(point)) points_.push_back(point);
     }
     const auto end = static_cast<std::uint32_t>(points_.size());
     if (end > begin) groups_.push_back({&emitter, begin, end, share});
 }
 
-void EmitterPoints::add_each(std::span<const std::int32_t> emitters) {
+void EmitterPoints::add_each(std::span<const Emitter* const> emitters, const Filter& filter) {
     const std::size_t each = kMostPoints / std::max<std::size_t>(emitters.size(), 1);
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(each, kMostPointsEach));
-    for (const std::int32_t i : emitters) {
-        const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(i)];
-        add(emitter, emitter.is_point() ? 1 : count, 1);
-    }
+    for (const Emitter* emitter : emitters)
+        add(*emitter, emitter->is_point() ? 1 : count, 1, filter);
 }
 
 // In place of what there is.
-void EmitterPoints::add_by_power(std::span<const std::int32_t> emitters, std::uint32_t choices) {
+void EmitterPoints::add_by_power(std::span<const Emitter* const> emitters, std::uint32_t choices,
+                                 const Filter& filter) {
     points_.clear();
     groups_.clear();
-    const auto at = [&](std::int32_t i) -> const Emitter& {
-        return *light_.emitters[static_cast<std::size_t>(i)];
-    };
     double power = 0;
-    for (const std::int32_t i : emitters)
-        power += at(i).bounds().power;
+    for (const Emitter* emitter : emitters)
+        power += emitter->bounds().power;
     // Choice k falls on the emitter in whose stretch of the power's sum k + 1/2 lies.
     double end = 0;
-    for (const std::int32_t i : emitters) {
-        const double expected = at(i).bounds().power / power * choices;
+    for (const Emitter* emitter : emitters) {
+        const double expected = emitter->bounds().power / power * choices;
         const double begin = end;
         end += expected;
         const double chosen = std::floor(end + 0.5) - std::floor(begin + 0.5);
         if (chosen == 0) continue;
         const auto count = static_cast<std::uint32_t>(2 * chosen);  // for both sides
-        add(at(i), at(i).is_point() ? 1 : count, static_cast<float>(chosen / expected));
+        add(*emitter, emitter->is_point() ? 1 : count, static_cast<float>(chosen / expected),
+            filter);
     }
 }
 

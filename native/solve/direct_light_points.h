@@ -7,6 +7,7 @@
 // in an even spread over the scene, and stands for the others (Keller, "Instant Radiosity", 1997).
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace antiradiance {
 
 class EmitterPoints {
 public:
-    // Borrows `light`.
-    explicit EmitterPoints(const DirectLight::Impl& light);
+    // Borrows the emitters of `light`.
+    EmitterPoints(const DirectLight::Impl& light, const Scene& scene);
 
     [[nodiscard]] std::span<const EmitterPoint> points() const { return points_; }
     // W/m2. visibility: of each point, 0..1
@@ -32,12 +33,13 @@ private:
         std::uint32_t begin, end;
         float share;
     };
-    void add(const Emitter& emitter, std::uint32_t count, float share);
-    void add_each(std::span<const std::int32_t> emitters);
-    void add_by_power(std::span<const std::int32_t> emitters, std::uint32_t choices);
-    [[nodiscard]] bool lights_something(const EmitterPoint& point) const;
+    // Tells whether a point lights anything.
+    using Filter = std::function<bool(const EmitterPoint&)>;
+    void add(const Emitter& emitter, std::uint32_t count, float share, const Filter& filter);
+    void add_each(std::span<const Emitter* const> emitters, const Filter& filter);
+    void add_by_power(std::span<const Emitter* const> emitters, std::uint32_t choices,
+                      const Filter& filter);
 
-    const DirectLight::Impl& light_;
     std::vector<EmitterPoint> points_;  // of suns last
     std::vector<Group> groups_;
 };

@@ -15,11 +15,11 @@ from compare import compare, compare_files, read_rgb  # noqa: E402
 REFERENCES = json.loads((IMAGES / "references.json").read_text())
 MODES = {mode: {"direct_light": mode} for mode in ("EXPLICIT", "SHADOW_MAPS")}
 
-# Measured plus a quarter: relative RMS against Cycles .025 and .026 (rays: .023 and .019), and
-# against rays by pixel .014 and .031. In the two rooms a frame hides the rim of the lamp from the
+# Measured plus a quarter: relative RMS against Cycles .012 and .027 (rays: .008 and .017), and
+# against rays by pixel .014 and .030. In the two rooms a frame hides the rim of the lamp from the
 # walls, of which 64 points tell little.
-LIKE_CYCLES = {"cornell_box": 0.031, "two_rooms": 0.033}
-LIKE_RAYS = {"cornell_box": 0.018, "two_rooms": 0.039}
+LIKE_CYCLES = {"cornell_box": 0.015, "two_rooms": 0.033}
+LIKE_RAYS = {"cornell_box": 0.017, "two_rooms": 0.038}
 
 
 @pytest.fixture(scope="session")

@@ -19,7 +19,7 @@ namespace {
 const vec3 kUp(0, 0, 1);
 
 struct MeshLight {
-    explicit MeshLight(const Scene& s) : scene(s), rays(scene), light{scene, rays} {
+    explicit MeshLight(const Scene& s) : scene(s), rays(scene), light{rays} {
         MeshEmitters mesh = make_mesh_emitters(scene, rays.epsilon());
         std::vector<EmitterBounds> bounds;
         for (const EmitterPtr& emitter : mesh.emitters)

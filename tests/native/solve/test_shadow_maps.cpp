@@ -250,6 +250,17 @@ TEST_F(ShadowMapLight, few_points_stand_for_many_emitters) {
     EXPECT_NEAR(sum, 1, 0.02);
 }
 
+// Above the lamp there is only luminous black, as inside a luminous ball; below it, the floor.
+TEST_F(ShadowMapLight, a_lamp_below_a_luminous_ceiling_still_shines) {
+    Scene scene;
+    test::add_quad(scene, "floor", vec3(-3, -3, 0), 6.0F * kX, 6.0F * kY,
+                   test::add_material(scene, vec3(0.5F)));
+    const int faint = test::add_material(scene, vec3(0), vec3(1e-6F));
+    test::add_quad(scene, "ceiling", vec3(-50, -50, 1.001F), 100.0F * kX, 100.0F * kY, faint);
+    scene.lamps.push_back(point_lamp(vec3(0, 0, 1)));
+    EXPECT_NEAR(Stage(scene).at(vec3(0)), 1, 1e-4F);
+}
+
 TEST_F(ShadowMapLight, lights_leaves_like_rays) {
     Scene scene;
     const int white = test::add_material(scene, vec3(0.5F));
