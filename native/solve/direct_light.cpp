@@ -97,7 +97,7 @@ vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int samples, 
         const bool missing = luminance(estimate.mean()) < 0.5F * expected;
         if (rays >= max_rays || !estimate.refine(kPixelTolerance, missing ? max_rays : 0)) break;
         // Four times as many halve the error of rays without structure, and do better here.
-        passes = std::min(3 * passes, (max_rays - rays + count - 1) / count);
+        passes = std::min(rays / count, (max_rays - rays + count - 1) / count);
     }
     return estimate.mean();
 }
