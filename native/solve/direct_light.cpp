@@ -96,7 +96,6 @@ vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int samples, 
         rays += passes * count;
         const bool missing = luminance(estimate.mean()) < 0.5F * expected;
         if (rays >= max_rays || !estimate.refine(kPixelTolerance, missing ? max_rays : 0)) break;
-        // Four times as many halve the error of rays without structure, and do better here.
         passes = std::min(rays / count, (max_rays - rays + count - 1) / count);
     }
     return estimate.mean();

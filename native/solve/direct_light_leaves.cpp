@@ -28,7 +28,9 @@ void leaf_points(const PatchTree& tree, NodeId leaf, std::uint32_t pass,
         // Another order each pass, so that a stratum meets every part of a lamp.
         const std::uint32_t stratum = i ^ (hash_combine(seed, pass) % kStrata);
         if ((mask & (1U << stratum)) == 0) continue;
-        const vec2 jitter = r2_sample(pass, hash_combine(seed, stratum));
+        // Every other pass mirrors the one before it, for gradients to cancel.
+        const vec2 place = r2_sample(pass / 2, hash_combine(seed, stratum));
+        const vec2 jitter = pass % 2 ? 1.0F - place : place;
         const vec2 cell(static_cast<float>(stratum % 4), static_cast<float>(stratum / 4));
         const vec3 normal = tree.normal[n];
         points.push_back({tree.patch_point(leaf, (cell + jitter) / 4.0F), normal, normal});
