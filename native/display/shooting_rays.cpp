@@ -11,12 +11,12 @@ namespace antiradiance {
 
 namespace {
 
-using glsl::kFar;
+using glsl::kClose;
 
 // Shadow rays by the share of the fragment's light that a patch can bring: many weak patches add
 // up smoothly with one each, a strong one shows the edges of single rays' shadows.
 std::size_t ray_count(float share, std::size_t most) {
-    constexpr float kStrong = 0.01F;
+    constexpr float kStrong = 0.02F;
     constexpr float kStrongest = 0.05F;
     return share < kStrong ? 1 : share < kStrongest ? std::min<std::size_t>(4, most) : most;
 }
@@ -75,7 +75,7 @@ vec3 RayShooter::unoccluded(NodeId source, const Receiver& r, const vec3& d) con
         return w * clusters_[static_cast<std::size_t>(source)].clamped_cosine(d / std::sqrt(d2));
     }
     if (glm::dot(d, s.normal) < scene_.epsilon()) return vec3(0);
-    if (d2 > kFar * kFar * s.radius * s.radius)
+    if (d2 > kClose * kClose * s.radius * s.radius)
         return transfer(r, s.normal, d, d2) * s.area * s.radiance;
     const std::array<vec3, 4> corners = tree_.patch_corners(source);
     const auto count = static_cast<std::size_t>(tree_.corner_count(source));

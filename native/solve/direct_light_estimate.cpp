@@ -181,8 +181,7 @@ double IrradianceEstimate::error_of(const Sum& sum) {
     const double residual = sum.yy - 2 * ratio * sum.yw + ratio * ratio * sum.ww;
     // Where all rays arrive, the next might not: succession's mean of what n of n rays leave open.
     const double unseen = mean * ratio / (sum.rays + 2);
-    const double shadow =
-        std::max(unseen, mean * std::sqrt(std::max(0.0, residual)) / sum.weight);
+    const double shadow = std::max(unseen, mean * std::sqrt(std::max(0.0, residual)) / sum.weight);
     // The unshadowed part varies smoothly over a patch: with one point a cell, the error falls with
     // the number of points, not with its root.
     const double variance = std::max(0.0, sum.unshadowed2 / sum.rays - mean * mean);

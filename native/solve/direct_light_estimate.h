@@ -25,7 +25,7 @@
 namespace antiradiance {
 
 // With no more emitters than this, each gets its own rays.
-inline constexpr std::size_t kMostEmittersEach = 8;
+inline constexpr std::size_t kMostEmittersEach = 16;
 // An emitter that would be chosen this often in one pass gets its own rays too.
 inline constexpr double kOwnRays = 4;
 // Choices among many emitters in one pass, divided over the points.
