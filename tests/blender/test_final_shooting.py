@@ -15,25 +15,38 @@ from compare import compare, read_rgb  # noqa: E402
 
 REFERENCES = json.loads((IMAGES / "references.json").read_text())
 
-# Measured plus a quarter: .014, .025 and .041 EXPLICIT; .054, .028 and .045 IMPLICIT. In the two
-# rooms and the office the noise of the 2 x 2 blocks of Cycles' picture is most of it.
+# Measured (in the comment, in %) plus a quarter, in the order of MODES. Where it is above 2, the
+# noise that the 2 x 2 blocks of Cycles' picture have is most of it.
 FLOORS = {
-    "cornell_box": {"EXPLICIT": 0.018, "IMPLICIT": 0.068},
-    "two_rooms": {"EXPLICIT": 0.032, "IMPLICIT": 0.035},
-    "office": {"EXPLICIT": 0.052, "IMPLICIT": 0.057},
+    "cornell_box": (0.018, 0.018, 0.068),  # 1.4, 1.4, 5.3: in IMPLICIT corners are too dark
+    "two_rooms": (0.032, 0.032, 0.036),  # 2.5, 2.5, 2.9
+    "office": (0.046, 0.047, 0.055),  # 3.7, 3.7, 4.4
+    "desks": (0.049, 0.048, 0.063),  # 3.9, 3.8, 5.0
+    "corridor": (0.055, 0.057, 0.072),  # 4.4, 4.6, 5.7
+    "japanese_room": (0.068, 0.071, 0.070),  # 5.5, 5.6, 5.6
+    "geometry_zoo": (0.018, 0.018, 0.018),  # 1.4, 1.4, 1.4
+    "lamp_area": (0.025, 0.027, 0.027),  # 2.0, 2.1, 2.2
+    "lamp_point": (0.008, 0.008, 0.008),  # 0.6, 0.6, 0.6
+    "lamp_spot": (0.006, 0.006, 0.007),  # 0.5, 0.5, 0.5
+    "lamp_sun": (0.010, 0.010, 0.010),  # 0.8, 0.7, 0.8
 }
+LARGEST_BIAS = 0.04  # measured: 1.8 % EXPLICIT, 3.2 % IMPLICIT in the hall of desks, too dark
 SPLATTING_FLOOR = 0.034  # on the Cornell box; measured .027
 SMALL = 20  # percent, for modes that take long
 
-MODES = {mode: {"visibility": mode, "display": "FINAL_SHOOTING"}
-         for mode in ("EXPLICIT", "IMPLICIT")}
+# With shadow rays, with the antiradiance of the explicit solution, and with that of the implicit.
+MODES = {
+    "RAYS": {"shooting_visibility": "RAYS"},
+    "ANTIRADIANCE": {"shooting_visibility": "ANTIRADIANCE"},
+    "IMPLICIT": {"visibility": "IMPLICIT"},
+}
 OF_THE_BOX = {
     "PATCHES": {"display": "PATCHES"},
     "SPLATTING": {"display": "SPLATTING"},
     "CUT_4x4": {"display": "FINAL_SHOOTING", "interleave": 4},
 }
-LEVELS = {level: {"display": "FINAL_SHOOTING", "shooting_level": level}
-          for level in ("LEAVES", "PARENTS", "CUT")}
+LEVELS = {f"{level}_{visibility}": {"shooting_level": level, "shooting_visibility": visibility}
+          for level in ("LEAVES", "PARENTS", "CUT") for visibility in ("RAYS", "ANTIRADIANCE")}
 # The passes of the solution are counted, so that solver and display do the same sums on both.
 BACK_ENDS = {
     f"{name}_{solver}": {**options, "iterations": 4, "solver": solver}
@@ -77,25 +90,26 @@ def test_final_shooting_like_cycles(pictures, scene, mode):
     pixels = pictures(scene, MODES, REFERENCES[scene]["percentage"])[mode]
     assert pixels.min() >= 0
     result = error(pixels, scene)
-    assert result.relative_rms <= FLOORS[scene][mode], str(result)
-    assert abs(result.bias) < 0.02, str(result)
+    assert result.relative_rms <= FLOORS[scene][list(MODES).index(mode)], str(result)
+    assert abs(result.bias) <= LARGEST_BIAS, str(result)
 
 
 def test_each_display_mode_of_the_cornell_box(pictures):
     percentage = REFERENCES["cornell_box"]["percentage"]
     of = {name: error(pixels, "cornell_box").relative_rms
           for name, pixels in pictures("cornell_box", OF_THE_BOX, percentage).items()}
-    shooting = error(pictures("cornell_box", MODES, percentage)["EXPLICIT"], "cornell_box")
+    shooting = error(pictures("cornell_box", MODES, percentage)["RAYS"], "cornell_box")
     assert of["SPLATTING"] <= SPLATTING_FLOOR
     assert shooting.relative_rms < 0.7 * min(of["PATCHES"], of["SPLATTING"])
     # Interleaving trades detail for speed, but not all that shooting gains.
     assert shooting.relative_rms < of["CUT_4x4"] < of["PATCHES"]
 
 
+@pytest.mark.parametrize("visibility", ["RAYS", "ANTIRADIANCE"])
 @pytest.mark.parametrize("level", ["PARENTS", "CUT"])
-def test_fewer_sources_give_the_light_of_all_leaves(pictures, level):
+def test_fewer_sources_give_the_light_of_all_leaves(pictures, level, visibility):
     of = pictures("cornell_box", LEVELS, SMALL)
-    result = compare(of[level], of["LEAVES"], block=1)
+    result = compare(of[f"{level}_{visibility}"], of[f"LEAVES_{visibility}"], block=1)
     assert 0 < result.relative_rms <= 0.01, str(result)
 
 

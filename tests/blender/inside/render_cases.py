@@ -262,6 +262,7 @@ def back_ends():
     room()
     settings = bpy.context.scene.antiradiance
     settings.direction_bins = 64
+    settings.display = "PATCHES"  # the solution itself: shooting adds a bounce
     reports = {}
     for visibility in ("EXPLICIT", "IMPLICIT"):
         for iterations in (0, 4):
