@@ -2,6 +2,7 @@
 #include "display/display.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "display/bin_weights.h"
@@ -59,22 +60,38 @@ std::vector<vec3> total_irradiance(const DisplayInput& input) {
     return sum;
 }
 
-std::vector<vec3> shoot_by_rays(const DisplayInput& input, const PatchLights& lights,
-                                const ShootingInput& shooting, Progress& progress) {
-    const std::vector<Moments> clusters = pull_moments(input.tree, input.radiance);
-    return shoot(
-        shooting, [&] { return make_ray_shooter(input.tree, lights, clusters, input.rays); },
-        progress, kIndirectSpan);
+SourceLists find_sources(const DisplayInput& input, const DisplayOptions& options,
+                         const GBuffer& buffer, const FragmentGroups& groups, Progress& progress) {
+    const ShootingLevel level = options.shooting_level;
+    CutRule rule;
+    rule.fronts_only = options.shooting_visibility == ShootingVisibility::kRays;
+    if (input.links_removed)
+        return linked_sources(input.tree, input.links, buffer, groups, level, rule, progress);
+    if (level == ShootingLevel::kCut) return cut_sources(input.tree, groups, rule, progress);
+    return all_sources(input.tree, level, groups.groups.size());
 }
 
-std::vector<vec3> shoot_by_antiradiance(const DisplayInput& input, const PatchLights& lights,
-                                        int bin_map_size, const ShootingInput& shooting,
-                                        DisplayBackend& backend, Progress& progress) {
-    const AntiradianceTable table =
-        antiradiance_table(input.tree, input.links, input.radiance, progress);
-    const BinWeights bins(input.links.bins, bin_map_size);
-    return backend.shoot({shooting, lights, table, bins, 2 * input.rays.epsilon()}, progress,
-                         kIndirectSpan);
+// Irradiance of the fragments by the sources of their groups' lists, interleaved over n x n pixels.
+using Shoot =
+    std::function<std::vector<vec3>(const SourceLists& sources, int n, ProgressSpan span)>;
+
+// n > 1: what is near lights every pixel, and is not blurred. Where all groups share one list, as
+// in the paper, all of it is interleaved: lists of their own would not fit into memory.
+std::vector<vec3> shoot_interleaved(const DisplayInput& input, const GBuffer& buffer,
+                                    const FragmentGroups& groups, const SourceLists& sources, int n,
+                                    const Shoot& shoot, Progress& progress) {
+    if (n == 1) return shoot(sources, 1, kIndirectSpan);
+    if (sources.shared)
+        return interleave_blur(buffer, shoot(sources, n, kIndirectSpan), n, progress);
+    constexpr float kNearShare = 0.5F;  // of the time
+    constexpr float kMiddle = kIndirectSpan.begin + kNearShare * (1 - kIndirectSpan.begin);
+    const NearAndFar lists = split_near(input.tree, groups, sources, progress);
+    std::vector<vec3> irradiance = shoot(lists.near, 1, {kIndirectSpan.begin, kMiddle});
+    const std::vector<vec3> far =
+        interleave_blur(buffer, shoot(lists.far, n, {kMiddle, 1}), n, progress);
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        irradiance[i] += far[i];
+    return irradiance;
 }
 
 std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
@@ -84,27 +101,33 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
                                       ? receiver_groups(buffer)
                                       : tile_groups(buffer, eye_of(input.scene.camera),
                                                     std::max(kTileSize, options.interleave));
-    const ShootingLevel level = options.shooting_level;
-    CutRule rule;
-    rule.fronts_only = options.shooting_visibility == ShootingVisibility::kRays;
-    SourceLists sources;
-    if (input.links_removed) {
-        sources = linked_sources(input.tree, input.links, buffer, groups, level, rule, progress);
-    } else if (level == ShootingLevel::kCut) {
-        sources = cut_sources(input.tree, groups, rule, progress);
-    } else {
-        sources = all_sources(input.tree, level, groups.groups.size());
-    }
+    const SourceLists all = find_sources(input, options, buffer, groups, progress);
     const PatchLights lights(input.tree, input.radiance, options.shooting_samples);
     const std::vector<vec3> leaf_light = total_irradiance(input);
-    const ShootingInput shooting{input.tree, buffer,     groups,
-                                 sources,    leaf_light, options.interleave};
-    const std::vector<vec3> irradiance =
-        options.shooting_visibility == ShootingVisibility::kRays
-            ? shoot_by_rays(input, lights, shooting, progress)
-            : shoot_by_antiradiance(input, lights, options.bin_map_size, shooting, backend,
-                                    progress);
-    return interleave_blur(buffer, irradiance, options.interleave, progress);
+    const auto interleaved = [&](const Shoot& shoot) {
+        return shoot_interleaved(input, buffer, groups, all, options.interleave, shoot, progress);
+    };
+    if (options.shooting_visibility == ShootingVisibility::kRays) {
+        const std::vector<Moments> clusters = pull_moments(input.tree, input.radiance);
+        const auto make = [&] {
+            return make_ray_shooter(input.tree, lights, clusters, input.rays);
+        };
+        return interleaved([&](const SourceLists& sources, int n, ProgressSpan span) {
+            return shoot({input.tree, buffer, groups, sources, leaf_light, n}, make, progress,
+                         span);
+        });
+    }
+    const AntiradianceTable table =
+        antiradiance_table(input.tree, input.links, input.radiance, progress);
+    const BinWeights bins(input.links.bins, options.bin_map_size);
+    return interleaved([&](const SourceLists& sources, int n, ProgressSpan span) {
+        return backend.shoot({{input.tree, buffer, groups, sources, leaf_light, n},
+                              lights,
+                              table,
+                              bins,
+                              2 * input.rays.epsilon()},
+                             progress, span);
+    });
 }
 
 struct Mode {

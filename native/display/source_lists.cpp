@@ -10,7 +10,8 @@ namespace antiradiance {
 
 namespace {
 
-constexpr float kNear = 2;  // radii of a node within which it is refined
+constexpr float kNear = 2;       // radii of a node within which it is refined
+constexpr float kNotShared = 4;  // and within which it lights every pixel of an interleaved block
 
 // Whether a sphere lies wholly behind all planes whose normals are within a cone about `axis`.
 // d: m, from the planes to the sphere's centre; reach: m, its radius and that of the planes'
@@ -130,6 +131,7 @@ SourceLists collect_lists(std::size_t group_count, Progress& progress,
 
 SourceLists all_sources(const PatchTree& tree, ShootingLevel level, std::size_t group_count) {
     SourceLists lists;
+    lists.shared = true;
     append_level(tree, 0, level, lists.sources);
     lists.begin.assign(group_count, 0);
     lists.end.assign(group_count, static_cast<std::uint32_t>(lists.sources.size()));
@@ -186,6 +188,26 @@ SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GB
                                  }
                              }
                          });
+}
+
+NearAndFar split_near(const PatchTree& tree, const FragmentGroups& groups, const SourceLists& lists,
+                      Progress& progress) {
+    const auto is_near = [&](NodeId source, const FragmentGroup& group) {
+        const auto n = static_cast<std::size_t>(source);
+        const float reach = kNotShared * tree.radius[n] + group.radius;
+        const vec3 d = tree.center[n] - group.center;
+        return glm::dot(d, d) < reach * reach;
+    };
+    const auto part = [&](bool near) {
+        return collect_lists(groups.groups.size(), progress,
+                             [&](std::size_t g, std::vector<NodeId>& list) {
+                                 for (const NodeId source : lists.of(g)) {
+                                     if (is_near(source, groups.groups[g]) == near)
+                                         list.push_back(source);
+                                 }
+                             });
+    };
+    return {part(true), part(false)};
 }
 
 }  // namespace antiradiance

@@ -17,6 +17,7 @@ namespace antiradiance {
 struct SourceLists {
     std::vector<NodeId> sources;            // patches, ascending in each list
     std::vector<std::uint32_t> begin, end;  // of each group's list, into `sources`; #groups
+    bool shared = false;                    // all groups have one list
 
     [[nodiscard]] std::span<const NodeId> of(std::size_t group) const {
         return {sources.data() + begin[group], end[group] - begin[group]};
@@ -52,5 +53,15 @@ struct CutRule {
                                          const GBuffer& buffer, const FragmentGroups& groups,
                                          ShootingLevel level, const CutRule& rule,
                                          Progress& progress);
+
+struct NearAndFar {
+    SourceLists near, far;
+};
+
+// Each group's list in two. What lies within a few of its own radii lights neighbouring pixels so
+// differently that interleaving must not share it out among them: the thin parts of a model have
+// fewer pixels than a block.
+[[nodiscard]] NearAndFar split_near(const PatchTree& tree, const FragmentGroups& groups,
+                                    const SourceLists& lists, Progress& progress);
 
 }  // namespace antiradiance

@@ -22,7 +22,7 @@ SHOOTING = {"display": "FINAL_SHOOTING", "shooting_visibility": "ANTIRADIANCE",
             "shooting_level": "LEAVES", "interleave": 1}
 FIGURES = {
     "figure_9": [{"display": "PATCHES"}, {"display": "SPLATTING"}, SHOOTING],
-    "figure_10": [{**SHOOTING, "interleave": n} for n in (4, 8, 16)],
+    "figure_10": [{**SHOOTING, "shooting_level": "CUT", "interleave": n} for n in (4, 8, 16)],
     "figure_11": [SHOOTING, {**SHOOTING, "shooting_level": "PARENTS"}],
 }
 

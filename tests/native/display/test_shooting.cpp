@@ -275,6 +275,27 @@ TEST_F(Shooting, interleaved_pixels_share_out_the_sources) {
     EXPECT_GT(worst_before, 0.1F);
 }
 
+TEST_F(Shooting, near_and_far_sources_are_all_sources) {
+    set_unit_room();
+    const GBuffer buffer = test::plane_buffer(16, 16, 0.03F);
+    const FragmentGroups groups = tile_groups(buffer, vec3(0.5F), 8);
+    Progress progress;
+    const SourceLists all = cut_sources(tree_, groups, CutRule{}, progress);
+    const NearAndFar parts = split_near(tree_, groups, all, progress);
+    for (std::size_t g = 0; g < groups.groups.size(); ++g) {
+        std::vector<NodeId> joined(parts.near.of(g).begin(), parts.near.of(g).end());
+        joined.insert(joined.end(), parts.far.of(g).begin(), parts.far.of(g).end());
+        std::sort(joined.begin(), joined.end());
+        EXPECT_TRUE(std::ranges::equal(joined, all.of(g)));
+        EXPECT_FALSE(parts.near.of(g).empty());
+        for (const NodeId n : parts.far.of(g)) {
+            const auto i = static_cast<std::size_t>(n);
+            EXPECT_GE(glm::distance(tree_.center[i], groups.groups[g].center),
+                      4 * tree_.radius[i] + groups.groups[g].radius);
+        }
+    }
+}
+
 TEST(InterleaveBlur, stays_on_a_surface) {
     GBuffer buffer = test::plane_buffer(8, 8, 0.1F);
     std::vector<vec3> light(64, vec3(1));
