@@ -16,7 +16,7 @@ using glsl::kClose;
 // Shadow rays by the share of the fragment's light that a patch can bring: many weak patches add
 // up smoothly with one each, a strong one shows the edges of single rays' shadows.
 std::size_t ray_count(float share, std::size_t most) {
-    constexpr float kStrong = 0.02F;
+    constexpr float kStrong = 0.01F;
     constexpr float kStrongest = 0.05F;
     return share < kStrong ? 1 : share < kStrongest ? std::min<std::size_t>(4, most) : most;
 }

@@ -258,6 +258,7 @@ REPORT = {
     "links": {"radiance": int, "antiradiance": int, "total": int, "bytes": int},
     "solve": {"backend": str, "renderer": str, "iterations": int, "residual": NUMBER,
               "converged": bool, "reason": str},
+    "direct": {"shadow_maps": int, "bytes": int},
     "display": {"mode": str, "backend": str, "renderer": str},
     "stages": dict.fromkeys(["model", "direct_light", "solve", "display"], str),
     "timings_s": dict.fromkeys(["sync", "hierarchy", "links", "visibility", "direct", "solve",

@@ -30,7 +30,8 @@ class Comparing:
 def compare(path, options):
     bpy.ops.wm.open_mainfile(filepath=path)
     session = Comparing(options)
-    recorder.addon("engine").AntiradianceEngine.session = lambda _engine: session
+    recorder.addon("engine").AntiradianceEngine.session = (
+        lambda _engine, _depsgraph: session)
     bpy.context.scene.render.engine = "ANTIRADIANCE"
     bpy.ops.render.render()
     return session.result
