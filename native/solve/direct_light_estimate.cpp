@@ -91,7 +91,7 @@ float IrradianceEstimate::share_of_choice(const SurfacePoint& point, const vec3&
 }
 
 void IrradianceEstimate::sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass,
-                                        Moments& moments) {
+                                        SampleSum& samples) {
     const std::uint32_t seed = hash_combine(seed_, 0x7f4a7c15U);
     for (const EmitterChoice& choice : choices_) {
         if (choice.probability * kChoices >= kOwnRays) continue;
@@ -107,7 +107,7 @@ void IrradianceEstimate::sample_choices(std::span<const SurfacePoint> points, st
             if (s.weight <= 0) continue;
             const float share = share_of_choice(point, s.direction, choice.probability,
                                                 emitter.density(point, s.direction));
-            moments.add(arriving(point, s) *
+            samples.add(arriving(point, s) *
                         (share * s.weight / static_cast<float>(choice.probability)));
         }
     }
@@ -133,13 +133,13 @@ vec3 IrradianceEstimate::arriving_from(const SurfacePoint& point, const vec3& di
 }
 
 void IrradianceEstimate::sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,
-                                           Moments& moments) {
+                                           SampleSum& samples) {
     const std::uint32_t seed = hash_combine(seed_, 0x3c6ef372U);
     for (std::uint32_t i = 0; i < hemisphere_rays_; ++i) {
         const std::uint32_t number = pass * kHemisphereRays + i;
         const SurfacePoint& point = points[number % points.size()];
         const Frame frame(point.shading_normal);
-        moments.add(
+        samples.add(
             arriving_from(point, frame.to_world(cosine_hemisphere(r2_sample(number, seed)))));
     }
 }
@@ -148,12 +148,12 @@ void IrradianceEstimate::add_chosen(std::span<const SurfacePoint> points) {
     const std::uint32_t pass = chosen_passes_++;
     const float offset = r2_sample(pass, seed_ ^ 0x9d2c5680U).x;
     light_.tree.choose(receivers_, kChoices, offset, choices_);
-    Moments by_choice;
+    SampleSum by_choice;
     sample_choices(points, pass, by_choice);
     chosen_ += by_choice.sum / static_cast<float>(kChoices);
     chosen_var_ += by_choice.variance(kChoices);
     if (hemisphere_rays_ == 0) return;
-    Moments by_cosine;
+    SampleSum by_cosine;
     sample_hemisphere(points, pass, by_cosine);
     chosen_ += by_cosine.sum / static_cast<float>(hemisphere_rays_);
     chosen_var_ += by_cosine.variance(hemisphere_rays_);

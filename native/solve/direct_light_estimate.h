@@ -80,7 +80,7 @@ private:
     };
 
     // Samples of a mean.
-    struct Moments {
+    struct SampleSum {
         vec3 sum{0};           // W/m2
         double y = 0, yy = 0;  // sums of the luminance and its square
         void add(const vec3& e) {
@@ -97,9 +97,10 @@ private:
 
     void add_own(Sum& sum, std::span<const SurfacePoint> points);
     void add_chosen(std::span<const SurfacePoint> points);
-    void sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass, Moments& moments);
+    void sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass,
+                        SampleSum& samples);
     void sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,
-                           Moments& moments);
+                           SampleSum& samples);
     [[nodiscard]] vec3 arriving_from(const SurfacePoint& point, const vec3& direction) const;
     [[nodiscard]] float share_of_choice(const SurfacePoint& point, const vec3& direction,
                                         double probability, float density) const;
