@@ -16,7 +16,7 @@ using gpu::Program;
 static_assert(sizeof(BinWeights::Texel) == sizeof(glsl::BinTexel) && BinWeights::kNearest == 4);
 
 // Lights, their shapes and their antiradiance, of the nodes that are there at a time.
-class ShootingTables final : public NodeTables {
+class ShootingTables final : public WorkTables {
 public:
     ShootingTables(const AntiradianceShooting& input, const Program& program)
         : in_(input), program_(program), bin_texels_(input.bins.texels()) {}
@@ -107,7 +107,7 @@ GlShooting::GlShooting(WorkRunner& runner)
 
 std::vector<vec3> GlShooting::shoot(const AntiradianceShooting& input, Progress& progress,
                                     ProgressSpan span) {
-    gpu::OnGlThread<NodeTables> tables = runner_.make_tables(program_, [&](const Program& program) {
+    gpu::OnGlThread<WorkTables> tables = runner_.make_tables(program_, [&](const Program& program) {
         return std::make_unique<ShootingTables>(input, program);
     });
     const ShootingInput& in = input.shooting;

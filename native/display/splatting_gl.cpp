@@ -9,7 +9,7 @@ using gpu::Buffer;
 using gpu::Program;
 
 // The leaves' disks, of the nodes that are there at a time.
-class DiskTable final : public NodeTables {
+class DiskTable final : public WorkTables {
 public:
     DiskTable(const SplattingInput& input, const Program& program)
         : in_(input), program_(program) {}
@@ -44,7 +44,7 @@ GlSplatting::GlSplatting(WorkRunner& runner)
 
 std::vector<vec3> GlSplatting::splat(const SplattingInput& input, Progress& progress,
                                      ProgressSpan span) {
-    gpu::OnGlThread<NodeTables> tables = runner_.make_tables(program_, [&](const Program& program) {
+    gpu::OnGlThread<WorkTables> tables = runner_.make_tables(program_, [&](const Program& program) {
         return std::make_unique<DiskTable>(input, program);
     });
     const std::vector<vec4> sums = runner_.run({input.buffer, input.groups, input.disks,

@@ -61,7 +61,7 @@ struct WorkRunner::BatchBuffers {
 
 // Where a run is.
 struct WorkRunner::Run {
-    gpu::OnGlThread<NodeTables>& tables;
+    gpu::OnGlThread<WorkTables>& tables;
     Progress& progress;
     ProgressSpan span;
     double all_pairs = 0;
@@ -84,7 +84,7 @@ gpu::OnGlThread<gpu::Program> WorkRunner::compile(const std::string& shader) con
 void WorkRunner::run_slice(Run& run, std::size_t first_item, std::size_t count,
                            std::uint32_t first_place, double pairs) {
     const auto start = std::chrono::steady_clock::now();
-    run.tables.run([&](NodeTables& tables, gpu::GlContext& context) {
+    run.tables.run([&](WorkTables& tables, gpu::GlContext& context) {
         const gpu::Program& program = tables.program();
         tables.bind();
         run.batch->run([](BatchBuffers& buffers, gpu::GlContext&) { buffers.bind(); });
@@ -127,7 +127,7 @@ std::vector<vec4> WorkRunner::run_batch(Run& run, const WorkBatch& batch,
     run.batch = &buffers;
     for (const NodeRange& range : ranges) {
         if (run.nodes != range) {
-            run.tables.run([&](NodeTables& tables, gpu::GlContext&) { tables.send(range); });
+            run.tables.run([&](WorkTables& tables, gpu::GlContext&) { tables.send(range); });
             run.nodes = range;
         }
         for (std::uint32_t place = 0; place < batch.longest_list;
@@ -137,7 +137,7 @@ std::vector<vec4> WorkRunner::run_batch(Run& run, const WorkBatch& batch,
     return buffers.run([](BatchBuffers& b, gpu::GlContext&) { return b.sums.read(); });
 }
 
-std::vector<vec4> WorkRunner::run(const FragmentWork& work, gpu::OnGlThread<NodeTables>& tables,
+std::vector<vec4> WorkRunner::run(const FragmentWork& work, gpu::OnGlThread<WorkTables>& tables,
                                   Progress& progress, ProgressSpan span) {
     const std::vector<WorkBatch> batches =
         make_batches(work.groups, work.lists, config_.block_bytes);

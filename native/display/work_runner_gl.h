@@ -23,9 +23,9 @@ struct NodeRange {
 };
 
 // A program, and what it needs to know of the nodes in a range. On the OpenGL thread.
-class NodeTables {
+class WorkTables {
 public:
-    virtual ~NodeTables() = default;
+    virtual ~WorkTables() = default;
     virtual void send(NodeRange range) = 0;
     virtual void bind() const = 0;  // and the uniforms that are the program's own
     [[nodiscard]] virtual const gpu::Program& program() const = 0;
@@ -46,9 +46,9 @@ public:
 
     [[nodiscard]] gpu::OnGlThread<gpu::Program> compile(const std::string& shader) const;
 
-    // make(const gpu::Program&) -> std::unique_ptr of a NodeTables
+    // make(const gpu::Program&) -> std::unique_ptr of a WorkTables
     template <typename Make>
-    [[nodiscard]] gpu::OnGlThread<NodeTables> make_tables(gpu::OnGlThread<gpu::Program>& program,
+    [[nodiscard]] gpu::OnGlThread<WorkTables> make_tables(gpu::OnGlThread<gpu::Program>& program,
                                                           const Make& make) const {
         return {thread_, [&](gpu::GlContext&) {
                     return program.run([&](gpu::Program& p, gpu::GlContext&) { return make(p); });
@@ -58,7 +58,7 @@ public:
     // The sums of all fragments (#fragments), each in the order of its list; 0 where that is empty.
     // Throws Cancelled; gpu::GlError when the device fails.
     [[nodiscard]] std::vector<vec4> run(const FragmentWork& work,
-                                        gpu::OnGlThread<NodeTables>& tables, Progress& progress,
+                                        gpu::OnGlThread<WorkTables>& tables, Progress& progress,
                                         ProgressSpan span);
 
 private:
