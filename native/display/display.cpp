@@ -130,15 +130,32 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
     });
 }
 
+// Whether a mode has sums for a back end.
+using UsesBackend = bool (*)(const DisplayOptions&);
+
+bool always(const DisplayOptions&) {
+    return true;
+}
+
+bool never(const DisplayOptions&) {
+    return false;
+}
+
+// Shadow rays stay on the CPU.
+bool without_rays(const DisplayOptions& options) {
+    return options.shooting_visibility == ShootingVisibility::kAntiradiance;
+}
+
 struct Mode {
     DisplayMode mode;
     IndirectLight indirect;
+    UsesBackend uses_backend;
     bool by_leaf;  // shows the leaves apart
 };
 constexpr Mode kModes[] = {
-    {DisplayMode::kPatches, &patch_irradiance, true},
-    {DisplayMode::kSplatting, &splatted_irradiance, false},
-    {DisplayMode::kFinalShooting, &shot_irradiance, false},
+    {DisplayMode::kPatches, &patch_irradiance, &never, true},
+    {DisplayMode::kSplatting, &splatted_irradiance, &always, false},
+    {DisplayMode::kFinalShooting, &shot_irradiance, &without_rays, false},
 };
 
 const Mode& find_mode(DisplayMode mode) {
@@ -151,9 +168,7 @@ const Mode& find_mode(DisplayMode mode) {
 }  // namespace
 
 bool uses_backend(const DisplayOptions& options) {
-    return options.mode == DisplayMode::kSplatting ||
-           (options.mode == DisplayMode::kFinalShooting &&
-            options.shooting_visibility == ShootingVisibility::kAntiradiance);
+    return find_mode(options.mode).uses_backend(options);
 }
 
 Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
