@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/parallel.h"
 
@@ -99,6 +100,53 @@ void append_level(const PatchTree& tree, NodeId from, ShootingLevel level,
     }
 }
 
+// Which segments end at a node.
+class SegmentsByReceiver {
+public:
+    SegmentsByReceiver(const PatchTree& tree, const LinkSet& links)
+        : begin_(tree.size() + 1, 0), segments_(links.segments.size()) {
+        for (const Segment& s : links.segments)
+            ++begin_[static_cast<std::size_t>(s.receiver) + 1];
+        for (std::size_t n = 0; n < tree.size(); ++n)
+            begin_[n + 1] += begin_[n];
+        std::vector<std::uint32_t> fill(begin_.begin(), begin_.end() - 1);
+        for (std::uint32_t i = 0; i < segments_.size(); ++i)
+            segments_[fill[static_cast<std::size_t>(links.segments[i].receiver)]++] = i;
+    }
+
+    // Into LinkSet::segments.
+    [[nodiscard]] std::span<const std::uint32_t> of(NodeId node) const {
+        const auto n = static_cast<std::size_t>(node);
+        return {segments_.data() + begin_[n], begin_[n + 1] - begin_[n]};
+    }
+
+private:
+    std::vector<std::uint32_t> begin_;     // #nodes + 1, into segments_
+    std::vector<std::uint32_t> segments_;  // into LinkSet::segments, by receiver
+};
+
+// The nodes that links connect to a leaf or its ancestors, without those below another one of them:
+// a source may be linked in several bins, and below another one. Ascending; none for leaf kNone.
+std::vector<NodeId> linked_nodes(const PatchTree& tree, const LinkSet& links,
+                                 const SegmentsByReceiver& segments, NodeId leaf) {
+    std::vector<NodeId> linked;
+    for (NodeId n = leaf; n != kNone; n = tree.parent[static_cast<std::size_t>(n)]) {
+        for (const std::uint32_t i : segments.of(n)) {
+            const Segment& s = links.segments[i];
+            for (std::uint32_t l = s.begin; l < s.end; ++l)
+                linked.push_back(links.links[l].source);
+        }
+    }
+    std::sort(linked.begin(), linked.end());
+    std::vector<NodeId> topmost;
+    for (const NodeId n : linked) {
+        const bool below =
+            !topmost.empty() && n < tree.subtree_end[static_cast<std::size_t>(topmost.back())];
+        if (!below) topmost.push_back(n);
+    }
+    return topmost;
+}
+
 }  // namespace
 
 SourceLists collect_lists(std::size_t group_count, Progress& progress,
@@ -149,45 +197,20 @@ SourceLists cut_sources(const PatchTree& tree, const FragmentGroups& groups, con
 SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GBuffer& buffer,
                            const FragmentGroups& groups, ShootingLevel level, const CutRule& rule,
                            Progress& progress) {
-    // Segments by receiver.
-    std::vector<std::uint32_t> begin(tree.size() + 1, 0);
-    for (const Segment& s : links.segments)
-        ++begin[static_cast<std::size_t>(s.receiver) + 1];
-    for (std::size_t n = 0; n < tree.size(); ++n)
-        begin[n + 1] += begin[n];
-    std::vector<std::uint32_t> of_node(links.segments.size());
-    std::vector<std::uint32_t> fill(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < links.segments.size(); ++i)
-        of_node[fill[static_cast<std::size_t>(links.segments[i].receiver)]++] = i;
-
+    const SegmentsByReceiver segments(tree, links);
     const Cut cut(tree, rule);
-    return collect_lists(groups.groups.size(), progress,
-                         [&](std::size_t g, std::vector<NodeId>& list) {
-                             const FragmentGroup& group = groups.groups[g];
-                             std::vector<NodeId> linked;
-                             for (NodeId n = buffer.fragments[groups.order[group.begin]].leaf;
-                                  n != kNone; n = tree.parent[static_cast<std::size_t>(n)]) {
-                                 for (std::uint32_t i = begin[static_cast<std::size_t>(n)];
-                                      i < begin[static_cast<std::size_t>(n) + 1]; ++i) {
-                                     const Segment& s = links.segments[of_node[i]];
-                                     for (std::uint32_t l = s.begin; l < s.end; ++l)
-                                         linked.push_back(links.links[l].source);
-                                 }
-                             }
-                             // Once each: a source may be linked in several bins, and below another
-                             // one.
-                             std::sort(linked.begin(), linked.end());
-                             NodeId covered = 0;  // all nodes before it are in the list
-                             for (const NodeId source : linked) {
-                                 if (source < covered) continue;
-                                 covered = tree.subtree_end[static_cast<std::size_t>(source)];
-                                 if (level == ShootingLevel::kCut) {
-                                     cut.descend(source, group, list);
-                                 } else {
-                                     append_level(tree, source, level, list);
-                                 }
-                             }
-                         });
+    const auto select = [&](std::size_t g, std::vector<NodeId>& list) {
+        const FragmentGroup& group = groups.groups[g];
+        const NodeId receiver = buffer.fragments[groups.order[group.begin]].leaf;
+        for (const NodeId source : linked_nodes(tree, links, segments, receiver)) {
+            if (level == ShootingLevel::kCut) {
+                cut.descend(source, group, list);
+            } else {
+                append_level(tree, source, level, list);
+            }
+        }
+    };
+    return collect_lists(groups.groups.size(), progress, select);
 }
 
 NearAndFar split_near(const PatchTree& tree, const FragmentGroups& groups, const SourceLists& lists,
@@ -199,13 +222,12 @@ NearAndFar split_near(const PatchTree& tree, const FragmentGroups& groups, const
         return glm::dot(d, d) < reach * reach;
     };
     const auto part = [&](bool near) {
-        return collect_lists(groups.groups.size(), progress,
-                             [&](std::size_t g, std::vector<NodeId>& list) {
-                                 for (const NodeId source : lists.of(g)) {
-                                     if (is_near(source, groups.groups[g]) == near)
-                                         list.push_back(source);
-                                 }
-                             });
+        const auto select = [&](std::size_t g, std::vector<NodeId>& list) {
+            std::ranges::copy_if(lists.of(g), std::back_inserter(list), [&](NodeId source) {
+                return is_near(source, groups.groups[g]) == near;
+            });
+        };
+        return collect_lists(groups.groups.size(), progress, select);
     };
     return {part(true), part(false)};
 }
