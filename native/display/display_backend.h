@@ -26,7 +26,7 @@ public:
     [[nodiscard]] virtual std::vector<vec3> splat(const SplattingInput& input, Progress& progress,
                                                   ProgressSpan span) = 0;
 
-    [[nodiscard]] virtual std::string name() const = 0;      // "CPU" or "OpenGL"
+    [[nodiscard]] virtual std::string name() const = 0;      // "CPU" or "OPENGL"
     [[nodiscard]] virtual std::string renderer() const = 0;  // of OpenGL, or the CPU's description
 };
 

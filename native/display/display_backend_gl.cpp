@@ -25,7 +25,7 @@ public:
         if (!splatting_) splatting_.emplace(runner_);
         return splatting_->splat(input, progress, span);
     }
-    std::string name() const override { return "OpenGL"; }
+    std::string name() const override { return "OPENGL"; }
     std::string renderer() const override { return renderer_; }
 
 private:

@@ -11,7 +11,7 @@ namespace antiradiance {
 
 struct DisplayRun {
     Picture picture;
-    std::string backend;   // "CPU" or "OpenGL"
+    std::string backend;   // "CPU" or "OPENGL"
     std::string renderer;  // of OpenGL, or the CPU's description
     DeviceUse device;
 };

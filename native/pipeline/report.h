@@ -30,7 +30,7 @@ struct Report {
     } solve;
     struct Display {
         std::string mode;     // the option's item: PATCHES, SPLATTING or FINAL_SHOOTING
-        std::string backend;  // OpenGL or CPU; empty without a camera
+        std::string backend;  // OPENGL or CPU; empty without a camera
         std::string renderer;
     } display;
     struct Timings {

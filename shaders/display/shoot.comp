@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Final shooting, as native/display/shooting.cpp has it: fragments lit by patch lights, radiance in
-// front of each and antiradiance behind it.
+// Final shooting, as native/display/shooting_antiradiance.cpp has it on the CPU: fragments lit by
+// patch lights, radiance in front of each and antiradiance behind it.
 #include "shared/bin_weights.glsl"
 #include "shared/form_factor.glsl"
 #include "shared/work_items.glsl"

@@ -98,9 +98,9 @@ TEST(ChooseDevice, TheDisplayTakesTheSolversDevice) {
         const char* backend;
     };
     const Case cases[] = {
-        {SolverChoice::kOpenGL, DisplayMode::kSplatting, ShootingVisibility::kAuto, "OpenGL"},
+        {SolverChoice::kOpenGL, DisplayMode::kSplatting, ShootingVisibility::kAuto, "OPENGL"},
         {SolverChoice::kOpenGL, DisplayMode::kFinalShooting, ShootingVisibility::kAntiradiance,
-         "OpenGL"},
+         "OPENGL"},
         {SolverChoice::kOpenGL, DisplayMode::kFinalShooting, ShootingVisibility::kRays, "CPU"},
         {SolverChoice::kOpenGL, DisplayMode::kPatches, ShootingVisibility::kAuto, "CPU"},
         {SolverChoice::kCpu, DisplayMode::kSplatting, ShootingVisibility::kAuto, "CPU"},
