@@ -27,19 +27,11 @@ vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int samples
     return light.irradiance({&point, 1}, samples, 0, 7);
 }
 
-Lamp lamp_at(LampType type, const vec3& position, float power) {
-    Lamp lamp;
-    lamp.name = "lamp";
-    lamp.type = type;
-    lamp.power = vec3(power);
-    lamp.to_world = glm::translate(mat4(1), position);
-    return lamp;
-}
-
 const vec3 kUp(0, 0, 1);
 
 TEST(DirectLightLamps, point_lamp_follows_the_inverse_square) {
-    const Scene scene = empty_stage(lamp_at(LampType::kPoint, vec3(0, 0, 2), 4 * kPi));  // 1 W/sr
+    const Scene scene =
+        empty_stage(test::lamp_at(LampType::kPoint, vec3(0, 0, 2), 4 * kPi));  // 1 W/sr
     EXPECT_NEAR(irradiance_at(scene, vec3(0), kUp).x, 1.0F / 4, 1e-6F);
     EXPECT_NEAR(irradiance_at(scene, vec3(0, 0, 1), kUp).x, 1, 1e-6F);
     // E = I cos / d^2 with d^2 = 8, cos = 1 / sqrt 2
@@ -48,7 +40,7 @@ TEST(DirectLightLamps, point_lamp_follows_the_inverse_square) {
 }
 
 TEST(DirectLightLamps, colour_is_kept) {
-    Lamp lamp = lamp_at(LampType::kPoint, vec3(0, 0, 1), 0);
+    Lamp lamp = test::lamp_at(LampType::kPoint, vec3(0, 0, 1), 0);
     lamp.power = 4 * kPi * vec3(1, 0.5F, 0);
     const vec3 e = irradiance_at(empty_stage(lamp), vec3(0), kUp);
     EXPECT_NEAR(e.x, 1, 1e-6F);
@@ -57,7 +49,7 @@ TEST(DirectLightLamps, colour_is_kept) {
 }
 
 TEST(DirectLightLamps, a_sphere_above_the_horizon_lights_like_its_centre) {
-    Lamp lamp = lamp_at(LampType::kPoint, vec3(1, 0, 1), 4 * kPi);
+    Lamp lamp = test::lamp_at(LampType::kPoint, vec3(1, 0, 1), 4 * kPi);
     lamp.radius = 0.5F;
     EXPECT_NEAR(irradiance_at(empty_stage(lamp), vec3(0), kUp).x, 0.5F / std::sqrt(2.0F), 1e-5F);
 }
@@ -65,7 +57,7 @@ TEST(DirectLightLamps, a_sphere_above_the_horizon_lights_like_its_centre) {
 TEST(DirectLightLamps, a_sphere_half_below_the_horizon) {
     // Radiance I / (pi r^2) from half a disk of directions with sin sigma = r / d:
     // integral of cos = asin(r/d) - r/d sqrt(1 - (r/d)^2).
-    Lamp lamp = lamp_at(LampType::kPoint, vec3(2, 0, 0), 4 * kPi);
+    Lamp lamp = test::lamp_at(LampType::kPoint, vec3(2, 0, 0), 4 * kPi);
     lamp.radius = 1;
     const float s = 0.5F;
     const float expected = (std::asin(s) - s * std::sqrt(1 - s * s)) / kPi;
@@ -73,7 +65,7 @@ TEST(DirectLightLamps, a_sphere_half_below_the_horizon) {
 }
 
 TEST(DirectLightLamps, sun) {
-    Lamp lamp = lamp_at(LampType::kSun, vec3(0), 3);
+    Lamp lamp = test::lamp_at(LampType::kSun, vec3(0), 3);
     lamp.to_world = glm::rotate(mat4(1), kPi / 3, vec3(1, 0, 0));
     for (const float angle : {0.0F, 0.1F, 0.9F}) {  // a disk above the horizon changes nothing
         lamp.sun_angle = angle;
@@ -84,7 +76,7 @@ TEST(DirectLightLamps, sun) {
 
 TEST(DirectLightLamps, area_lamp_lights_like_a_polygon) {
     // 1 m x 1 m, 2 m above a point below its corner, radiance power / (4 area).
-    Lamp lamp = lamp_at(LampType::kArea, vec3(0.5F, 0.5F, 2), 40);
+    Lamp lamp = test::lamp_at(LampType::kArea, vec3(0.5F, 0.5F, 2), 40);
     const double x = 0.5;
     const double r = std::sqrt(1 + x * x);
     const double factor = 2 * x / r * std::atan(x / r) / (2 * kPi);
@@ -97,7 +89,7 @@ TEST(DirectLightLamps, area_lamp_lights_like_a_polygon) {
 TEST(DirectLightLamps, round_area_lamp_lights_like_a_disk) {
     // Point on the axis of a disk: F = r^2 / (r^2 + h^2).
     for (const float h : {0.2F, 1.0F, 5.0F}) {
-        Lamp lamp = lamp_at(LampType::kArea, vec3(0, 0, h), 1);
+        Lamp lamp = test::lamp_at(LampType::kArea, vec3(0, 0, h), 1);
         lamp.shape = AreaShape::kEllipse;
         lamp.size = vec2(2, 2);
         const float radiance = 1 / (4 * kPi);
@@ -119,7 +111,7 @@ struct CyclesCase {
 
 Lamp tilted(LampType type, float angle, const vec3& position, float power,
             const vec3& scale = vec3(1)) {
-    Lamp lamp = lamp_at(type, position, power);
+    Lamp lamp = test::lamp_at(type, position, power);
     lamp.to_world = glm::rotate(lamp.to_world, angle, vec3(1, 0, 0));
     lamp.to_world = glm::scale(lamp.to_world, scale);
     lamp.spot_cosine = true;

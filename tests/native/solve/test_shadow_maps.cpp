@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 
 #include "base/error.h"
@@ -46,17 +45,8 @@ struct Stage {
     DirectLight traced;
 };
 
-Lamp lamp_at(LampType type, const vec3& position, float power) {
-    Lamp lamp;
-    lamp.name = "lamp";
-    lamp.type = type;
-    lamp.power = vec3(power);
-    lamp.to_world = glm::translate(mat4(1), position);
-    return lamp;
-}
-
 Lamp point_lamp(const vec3& position, float radius = 0) {
-    Lamp lamp = lamp_at(LampType::kPoint, position, 4 * kPi);  // 1 W/sr
+    Lamp lamp = test::lamp_at(LampType::kPoint, position, 4 * kPi);  // 1 W/sr
     lamp.radius = radius;
     return lamp;
 }
@@ -100,13 +90,13 @@ TEST_F(ShadowMapLight, a_hard_shadow_ends_where_it_should) {
 TEST_F(ShadowMapLight, unshadowed_light_is_that_of_rays) {
     const vec3 above(0.3F, -0.2F, 2);
     std::vector<Lamp> lamps{point_lamp(above), point_lamp(above, 0.4F)};
-    lamps.push_back(lamp_at(LampType::kSpot, above, 100));
+    lamps.push_back(test::lamp_at(LampType::kSpot, above, 100));
     lamps.back().spot_angle = 1.5F;
     lamps.back().spot_blend = 0;
-    lamps.push_back(lamp_at(LampType::kSun, above, 1));
+    lamps.push_back(test::lamp_at(LampType::kSun, above, 1));
     lamps.back().sun_angle = 0.2F;
-    lamps.push_back(lamp_at(LampType::kArea, above, 1));
-    lamps.push_back(lamp_at(LampType::kArea, above, 1));
+    lamps.push_back(test::lamp_at(LampType::kArea, above, 1));
+    lamps.push_back(test::lamp_at(LampType::kArea, above, 1));
     lamps.back().shape = AreaShape::kEllipse;
     for (const Lamp& lamp : lamps) {
         Scene scene;
@@ -177,7 +167,7 @@ TEST_F(ShadowMapLight, walls_are_tight) {
             test::add_quad(scene, "floor", vec3(0), 4.0F * kX, 4.0F * kY, kNone);
         }
         scene.lamps.push_back(point_lamp(vec3(-1, 2, 1.5F)));
-        scene.lamps.push_back(lamp_at(LampType::kArea, vec3(-2, 2, 2.9F), 10));
+        scene.lamps.push_back(test::lamp_at(LampType::kArea, vec3(-2, 2, 2.9F), 10));
         Stage stage(scene);
         // 129 points of lamps share the memory: 227 texels along a face, which is 5.8 m wide where
         // the area lamp's meets the floor.
@@ -215,13 +205,13 @@ TEST_F(ShadowMapLight, half_a_lamp_gives_half_of_its_light) {
         half.lamps.push_back(lamp);
         return Stage(half).at(vec3(0)) / Stage(open).at(vec3(0));
     };
-    Lamp sun = lamp_at(LampType::kSun, vec3(0), 1);
+    Lamp sun = test::lamp_at(LampType::kSun, vec3(0), 1);
     sun.sun_angle = 0.1F;
-    Lamp disk = lamp_at(LampType::kArea, vec3(0, 0, 2), 1);
+    Lamp disk = test::lamp_at(LampType::kArea, vec3(0, 0, 2), 1);
     disk.shape = AreaShape::kEllipse;
     // Each point is either seen or not: half of 128, or of a sun's 16, up to their even spread.
     EXPECT_NEAR(ratio(point_lamp(vec3(0, 0, 2), 0.3F)), 0.5F, 0.05F);
-    EXPECT_NEAR(ratio(lamp_at(LampType::kArea, vec3(0, 0, 2), 1)), 0.5F, 0.05F);
+    EXPECT_NEAR(ratio(test::lamp_at(LampType::kArea, vec3(0, 0, 2), 1)), 0.5F, 0.05F);
     EXPECT_NEAR(ratio(disk), 0.5F, 0.05F);
     EXPECT_NEAR(ratio(sun), 0.5F, 0.1F);
 }
@@ -266,7 +256,7 @@ TEST_F(ShadowMapLight, lights_leaves_like_rays) {
     const int white = test::add_material(scene, vec3(0.5F));
     test::add_box(scene, "room", vec3(0), vec3(4, 4, 3), white, test::Facing::kInward);
     test::add_box(scene, "block", vec3(1.2F, 1, 0.01F), vec3(2, 2, 1), white);
-    scene.lamps.push_back(lamp_at(LampType::kArea, vec3(2, 2, 2.9F), 10));
+    scene.lamps.push_back(test::lamp_at(LampType::kArea, vec3(2, 2, 2.9F), 10));
     Stage stage(scene);
     const PatchTree tree = test::front_tree(scene, 0.3F);
     const auto maps = stage.maps.leaf_irradiance(tree, stage.progress);
@@ -289,7 +279,7 @@ TEST_F(ShadowMapLight, lights_leaves_like_rays) {
 TEST_F(ShadowMapLight, can_be_cancelled) {
     Scene scene;
     test::add_quad(scene, "floor", vec3(-3, -3, 0), 6.0F * kX, 6.0F * kY, kNone);
-    scene.lamps.push_back(lamp_at(LampType::kArea, vec3(0, 0, 2), 10));
+    scene.lamps.push_back(test::lamp_at(LampType::kArea, vec3(0, 0, 2), 10));
     const RayScene rays(scene);
     Progress stopped(nullptr, [] { return true; });
     EXPECT_THROW(DirectLight(scene, rays, DirectLightMode::kShadowMaps, stopped), Cancelled);

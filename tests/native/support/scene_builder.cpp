@@ -92,11 +92,19 @@ void add_ball(Scene& scene, const std::string& name, const vec3& center, float r
     }
 }
 
-void add_point_lamp(Scene& scene, const vec3& position, const vec3& watts) {
+Lamp lamp_at(LampType type, const vec3& position, float power) {
     Lamp lamp;
+    lamp.name = "lamp";
+    lamp.type = type;
+    lamp.power = vec3(power);
+    lamp.to_world = glm::translate(mat4(1), position);
+    return lamp;
+}
+
+void add_point_lamp(Scene& scene, const vec3& position, const vec3& watts) {
+    Lamp lamp = lamp_at(LampType::kPoint, position, 0);
     lamp.name = "lamp " + std::to_string(scene.lamps.size());
     lamp.power = watts;
-    lamp.to_world = glm::translate(mat4(1), position);
     scene.lamps.push_back(lamp);
 }
 

@@ -30,6 +30,9 @@ void add_box(Scene& scene, const std::string& name, const vec3& low, const vec3&
 void add_ball(Scene& scene, const std::string& name, const vec3& center, float radius, int rings,
               int material);
 
+// power: W, of suns W/m2. It shines along -z, where its type has a direction.
+[[nodiscard]] Lamp lamp_at(LampType type, const vec3& position, float power);
+
 // Appends a point lamp that sends `watts` into all directions alike.
 void add_point_lamp(Scene& scene, const vec3& position, const vec3& watts);
 
