@@ -1,15 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drives Blender from outside: `in_blender` runs a script of inside/, `render` makes a picture."""
+"""Drives Blender from outside: `in_blender` runs a script of inside/, `render` makes a picture,
+`pictures` those of a scene in several modes."""
 
 import json
 import pathlib
+import sys
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import pytest
 from multilayer import read_multilayer
 
 INSIDE = pathlib.Path(__file__).parent / "inside"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+IMAGES = ROOT / "tests" / "images"
+sys.path.insert(0, str(IMAGES))
+from compare import read_rgb  # noqa: E402
+
+REFERENCES = json.loads((IMAGES / "references.json").read_text())
 
 
 @pytest.fixture(scope="session")
@@ -24,6 +33,42 @@ def in_blender(run_blender, tmp_path_factory):
         return json.loads(output.read_text())
 
     return run
+
+
+@dataclass
+class Picture:
+    """One of a scene's pictures in several modes."""
+
+    path: pathlib.Path
+    report: dict
+
+    @cached_property
+    def pixels(self):
+        return read_rgb(self.path)
+
+
+@pytest.fixture(scope="session")
+def pictures(in_blender, tmp_path_factory):
+    """pictures(scene, modes, percentage=None) -> {mode: Picture}
+
+    scene: the name of one of blend_scenes/. modes: {mode: options of scene.antiradiance}, rendered
+    in one Blender and once a session. percentage: of the scene's resolution, by default as Cycles'
+    picture in tests/images has it.
+    """
+    done = {}
+
+    def of(scene, modes, percentage=None):
+        percentage = percentage or REFERENCES[scene]["percentage"]
+        cases = json.dumps(modes)
+        key = scene, cases, percentage
+        if key not in done:
+            folder = tmp_path_factory.mktemp(scene)
+            file = ROOT / "blend_scenes" / f"{scene}.blend"
+            reports = in_blender("render_modes.py", file, percentage, folder, cases, timeout=900)
+            done[key] = {mode: Picture(folder / f"{mode}.exr", reports[mode]) for mode in modes}
+        return done[key]
+
+    return of
 
 
 @dataclass

@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Splatting and final shooting against Cycles, on 2 x 2 block means, and against each other."""
 
-import json
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-IMAGES = ROOT / "tests" / "images"
+IMAGES = Path(__file__).resolve().parents[1] / "images"
 sys.path.insert(0, str(IMAGES))
 from compare import compare, read_rgb  # noqa: E402
-
-REFERENCES = json.loads((IMAGES / "references.json").read_text())
 
 # Measured (in the comment, in %) plus a quarter, in the order of MODES. Where it is above 2, the
 # noise that the 2 x 2 blocks of Cycles' picture have is most of it.
@@ -65,42 +61,24 @@ SAME_LIGHT = 0.02
 SAME_MEAN = 0.003  # measured .0003
 
 
-@pytest.fixture(scope="session")
-def pictures(in_blender, tmp_path_factory):
-    """pictures(scene, modes, percentage) -> {mode: pixels}"""
-    done = {}
-
-    def of(scene, modes, percentage):
-        key = scene, tuple(modes), percentage
-        if key not in done:
-            folder = tmp_path_factory.mktemp("shooting")
-            in_blender("render_modes.py", ROOT / "blend_scenes" / f"{scene}.blend", percentage,
-                       folder, json.dumps(modes), timeout=900)
-            done[key] = {mode: read_rgb(folder / f"{mode}.exr") for mode in modes}
-        return done[key]
-
-    return of
-
-
-def error(pixels, scene):
-    return compare(pixels, read_rgb(IMAGES / f"{scene}.exr"), block=2)
+def error(picture, scene):
+    return compare(picture.pixels, read_rgb(IMAGES / f"{scene}.exr"), block=2)
 
 
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("scene", FLOORS)
 def test_final_shooting_like_cycles(pictures, scene, mode):
-    pixels = pictures(scene, MODES, REFERENCES[scene]["percentage"])[mode]
-    assert pixels.min() >= 0
-    result = error(pixels, scene)
+    picture = pictures(scene, MODES)[mode]
+    assert picture.pixels.min() >= 0
+    result = error(picture, scene)
     assert result.relative_rms <= FLOORS[scene][list(MODES).index(mode)], str(result)
     assert abs(result.bias) <= LARGEST_BIAS, str(result)
 
 
 def test_each_display_mode_of_the_cornell_box(pictures):
-    percentage = REFERENCES["cornell_box"]["percentage"]
-    of = {name: error(pixels, "cornell_box").relative_rms
-          for name, pixels in pictures("cornell_box", OF_THE_BOX, percentage).items()}
-    shooting = error(pictures("cornell_box", MODES, percentage)["RAYS"], "cornell_box")
+    of = {name: error(picture, "cornell_box").relative_rms
+          for name, picture in pictures("cornell_box", OF_THE_BOX).items()}
+    shooting = error(pictures("cornell_box", MODES)["RAYS"], "cornell_box")
     assert of["SPLATTING"] <= SPLATTING_FLOOR
     assert shooting.relative_rms < 0.7 * min(of["PATCHES"], of["SPLATTING"])
     # Interleaving trades detail for speed, but not all that shooting gains.
@@ -111,14 +89,15 @@ def test_each_display_mode_of_the_cornell_box(pictures):
 @pytest.mark.parametrize("level", ["PARENTS", "CUT"])
 def test_fewer_sources_give_the_light_of_all_leaves(pictures, level, visibility):
     of = pictures("cornell_box", LEVELS, SMALL)
-    result = compare(of[f"{level}_{visibility}"], of[f"LEAVES_{visibility}"], block=1)
+    fewer, all_leaves = (of[f"{name}_{visibility}"].pixels for name in (level, "LEAVES"))
+    result = compare(fewer, all_leaves, block=1)
     assert 0 < result.relative_rms <= 0.01, str(result)
 
 
 @pytest.mark.parametrize("mode", ["SHOOTING", "SPLATTING"])
 def test_opengl_and_cpu_make_the_same_picture(pictures, mode):
     of = pictures("cornell_box", BACK_ENDS, SMALL)
-    cpu, opengl = of[f"{mode}_CPU"], of[f"{mode}_OPENGL"]
+    cpu, opengl = (of[f"{mode}_{solver}"].pixels for solver in ("CPU", "OPENGL"))
     # The same sums in the same order, but for a compiler's rounding: measured 5e-7 of the mean.
     assert np.abs(cpu - opengl).max() <= 1e-4 * cpu.mean()
 
@@ -126,6 +105,7 @@ def test_opengl_and_cpu_make_the_same_picture(pictures, mode):
 def test_no_light_is_counted_twice(pictures):
     """Direct light by rays plus shooting without emission is all light shot along links."""
     of = pictures("cornell_box", COUNTED_ONCE, SMALL)
-    result = compare(of["EXPLICIT"], of["IMPLICIT"], block=1)
+    by_rays, by_links = (of[direct].pixels for direct in ("EXPLICIT", "IMPLICIT"))
+    result = compare(by_rays, by_links, block=1)
     assert result.relative_rms <= SAME_LIGHT, str(result)
-    assert of["EXPLICIT"].mean() / of["IMPLICIT"].mean() == pytest.approx(1.0, abs=SAME_MEAN)
+    assert by_rays.mean() / by_links.mean() == pytest.approx(1.0, abs=SAME_MEAN)

@@ -13,7 +13,7 @@ from pytest import approx
 ROOT = Path(__file__).resolve().parents[2]
 IMAGES = ROOT / "tests" / "images"
 sys.path.insert(0, str(IMAGES))
-from compare import block_means, compare, compare_files, read_rgb  # noqa: E402
+from compare import block_means, compare, read_rgb  # noqa: E402
 
 REFERENCES = json.loads((IMAGES / "references.json").read_text())
 MODELS = {"modern_hall"}  # not of this project's making: test_halls.py
@@ -64,28 +64,6 @@ LAMP_SCENES = [name for name in REFERENCES if name.startswith("lamp_")]
 LAMP_MEAN = 0.02
 
 
-class Picture(NamedTuple):
-    path: Path
-    report: dict
-
-
-@pytest.fixture(scope="session")
-def pictures(in_blender, tmp_path_factory):
-    """pictures(scene) -> {mode: Picture}; all modes of a scene are rendered in one Blender."""
-    done = {}
-
-    def of(scene):
-        if scene not in done:
-            folder = tmp_path_factory.mktemp(scene)
-            file = ROOT / "blend_scenes" / f"{scene}.blend"
-            reports = in_blender("render_modes.py", file, REFERENCES[scene]["percentage"], folder,
-                                 json.dumps(MODES), timeout=600)
-            done[scene] = {mode: Picture(folder / f"{mode}.exr", reports[mode]) for mode in MODES}
-        return done[scene]
-
-    return of
-
-
 def reference(scene):
     return IMAGES / f"{scene}.exr"
 
@@ -100,13 +78,13 @@ def test_every_scene_has_a_reference():
 def test_like_cycles(pictures, scene, mode):
     floor = FLOORS.get(scene, LIMITS).of(mode)
     assert floor <= LIMITS.of(mode)
-    picture = pictures(scene)[mode]
+    picture = pictures(scene, MODES)[mode]
     assert picture.report["error"] == ""
     assert picture.report["solve"]["converged"]
-    pixels = read_rgb(picture.path)
+    pixels = picture.pixels
     assert pixels.shape == (REFERENCES[scene]["height"], REFERENCES[scene]["width"], 3)
     assert pixels.min() >= 0
-    result = compare_files(picture.path, reference(scene))
+    result = compare(pixels, read_rgb(reference(scene)))
     assert result.relative_rms <= floor, f"{scene} {mode}: {result}"
 
 
@@ -114,7 +92,7 @@ def test_like_cycles(pictures, scene, mode):
 @pytest.mark.parametrize("scene", LAMP_SCENES)
 def test_lamp_means(pictures, scene, mode):
     """Power to radiance, soft sizes, falloffs: nothing clipped, and each channel by itself."""
-    picture, cycles = read_rgb(pictures(scene)[mode].path), read_rgb(reference(scene))
+    picture, cycles = pictures(scene, MODES)[mode].pixels, read_rgb(reference(scene))
     result = compare(picture, cycles, clip=None)
     assert abs(result.bias) <= LAMP_MEAN, f"{scene} {mode}: {result}"
     channels = picture.mean(axis=(0, 1)) / cycles.mean(axis=(0, 1))
@@ -125,7 +103,7 @@ def test_lamp_means(pictures, scene, mode):
 @pytest.mark.parametrize("bay, shape", enumerate(["square", "rectangle", "disk", "ellipse"]))
 def test_each_shape_of_an_area_lamp(pictures, bay, shape, mode):
     """Each lights one quarter of the picture's width."""
-    picture, cycles = read_rgb(pictures("lamp_area")[mode].path), read_rgb(reference("lamp_area"))
+    picture, cycles = pictures("lamp_area", MODES)[mode].pixels, read_rgb(reference("lamp_area"))
     width = cycles.shape[1] // 4
     columns = slice(bay * width, (bay + 1) * width)
     bias = picture[:, columns].mean() / cycles[:, columns].mean() - 1
@@ -137,7 +115,7 @@ def test_every_thing_of_the_zoo_stands_where_it_should(pictures, mode):
     """A thing missing, doubled or mirrored differs in whole blocks by much of the mean: the cones,
     the smallest, are 8 pixels wide. Measured: .10 (the edge of the glowing panel)."""
     picture, cycles = (block_means(np.minimum(pixels, 1.0), 8) for pixels in (
-        read_rgb(pictures("geometry_zoo")[mode].path), read_rgb(reference("geometry_zoo"))))
+        pictures("geometry_zoo", MODES)[mode].pixels, read_rgb(reference("geometry_zoo"))))
     difference = np.abs(picture - cycles).max(axis=2) / cycles.mean()
     at = np.unravel_index(difference.argmax(), difference.shape)
     assert difference.max() < 0.2, f"{difference.max():.2f} at block {at} of {difference.shape}"
@@ -148,8 +126,9 @@ def test_hidden_green_lamps_give_no_light(pictures, mode):
     """The zoo's hidden screen, box and lamp are pure green and stronger than what lights it.
     Measured: shares of .3407 to .3408 against .3408."""
     shares = []
-    for path in (pictures("geometry_zoo")[mode].path, reference("geometry_zoo")):
-        red, green, blue = read_rgb(path).mean(axis=(0, 1))
+    zoo = pictures("geometry_zoo", MODES)[mode]
+    for pixels in (zoo.pixels, read_rgb(reference("geometry_zoo"))):
+        red, green, blue = pixels.mean(axis=(0, 1))
         shares.append(green / (red + green + blue))
     assert shares[0] == approx(shares[1], abs=0.001)
 
@@ -201,7 +180,7 @@ def part_cases():
 
 @pytest.mark.parametrize("scene, part, mode", part_cases())
 def test_parts_of_pictures(pictures, scene, part, mode):
-    picture, cycles = read_rgb(pictures(scene)[mode].path), read_rgb(reference(scene))
+    picture, cycles = pictures(scene, MODES)[mode].pixels, read_rgb(reference(scene))
     height, width = cycles.shape[:2]
     left, top, right, bottom = PARTS[scene][part]
     rows = slice(round(top * height), round(bottom * height))
@@ -216,14 +195,14 @@ FURNISHED = ("office", "desks", "japanese_room")
 
 @pytest.mark.parametrize("scene", FURNISHED)
 def test_furnished_scenes_are_detailed(pictures, scene):
-    for mode, picture in pictures(scene).items():
+    for mode, picture in pictures(scene, MODES).items():
         assert picture.report["leaves"] >= 12_000, mode
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_colours_of_the_cornell_box(pictures, mode):
     """blend_scenes/README.md: what must be true of the picture."""
-    box = read_rgb(pictures("cornell_box")[mode].path)
+    box = pictures("cornell_box", MODES)[mode].pixels
     red_wall, green_wall = patch_of(box, 0.12, 0.4), patch_of(box, 0.9, 0.4)
     assert red_wall[0] > 5 * red_wall[1] and green_wall[1] > 1.2 * green_wall[0]
     left_of_tall, right_of_short = patch_of(box, 0.285, 0.6), patch_of(box, 0.765, 0.75)
