@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "hierarchy/growing_tree.h"
-#include "hierarchy/patch_materials.h"
 
 namespace antiradiance {
 
@@ -67,7 +66,6 @@ PatchTree GrowingTree::finish(const Scene& scene, std::vector<NodeId>& renumbere
                     static_cast<SurfaceId>(s);
         }
     }
-    average_materials(scene, tree);
     return tree;
 }
 

@@ -59,7 +59,7 @@ public:
                                                    float max_edge);
 
     // The tree in preorder; creation number -> NodeId of the result is written to `renumbered`.
-    // Radiometric arrays are filled from the scene: area averages of albedo and emission.
+    // scene: the one that the surfaces are of.
     [[nodiscard]] PatchTree finish(const Scene& scene, std::vector<NodeId>& renumbered) const;
 
     static constexpr float kElongated = 1.6F;

@@ -42,16 +42,17 @@ SurfacePoint triangle_at(const Scene& scene, const Surface& s, const vec3& p) {
                                     : SurfacePoint{s.triangles[1], b1};
 }
 
-void set_material(const Scene& scene, PatchTree& tree, NodeId leaf) {
+void set_material(const Scene& scene, const PatchTree& tree, NodeId leaf,
+                  PatchMaterials& materials) {
     const auto n = static_cast<std::size_t>(leaf);
     const Surface& s = tree.surfaces[static_cast<std::size_t>(tree.surface[n])];
     if (s.lamp != kNone) {
-        tree.emission[n] = area_lamp_radiance(scene.lamps[static_cast<std::size_t>(s.lamp)]);
+        materials.emission[n] = area_lamp_radiance(scene.lamps[static_cast<std::size_t>(s.lamp)]);
         return;
     }
     const Material& material = scene.materials[static_cast<std::size_t>(s.material)];
-    tree.albedo[n] = material.albedo;
-    tree.emission[n] = material.emission;
+    materials.albedo[n] = material.albedo;
+    materials.emission[n] = material.emission;
     if (material.albedo_texture == kNone && material.emission_texture == kNone) return;
     vec3 albedo(0);
     vec3 emission(0);
@@ -63,19 +64,21 @@ void set_material(const Scene& scene, PatchTree& tree, NodeId leaf) {
             emission += scene.emission_at(p.triangle, p.barycentric);
         }
     }
-    tree.albedo[n] = albedo / static_cast<float>(kTextureSamples * kTextureSamples);
-    tree.emission[n] = emission / static_cast<float>(kTextureSamples * kTextureSamples);
+    materials.albedo[n] = albedo / static_cast<float>(kTextureSamples * kTextureSamples);
+    materials.emission[n] = emission / static_cast<float>(kTextureSamples * kTextureSamples);
 }
 
 }  // namespace
 
-void average_materials(const Scene& scene, PatchTree& tree) {
-    tree.albedo.assign(tree.size(), vec3(0));
-    tree.emission.assign(tree.size(), vec3(0));
+PatchMaterials average_materials(const Scene& scene, const PatchTree& tree) {
+    PatchMaterials materials;
+    materials.albedo.assign(tree.size(), vec3(0));
+    materials.emission.assign(tree.size(), vec3(0));
     for (const NodeId leaf : tree.leaves)
-        set_material(scene, tree, leaf);
-    pull_area_average<vec3>(tree, tree.albedo);
-    pull_area_average<vec3>(tree, tree.emission);
+        set_material(scene, tree, leaf, materials);
+    pull_area_average<vec3>(tree, materials.albedo);
+    pull_area_average<vec3>(tree, materials.emission);
+    return materials;
 }
 
 }  // namespace antiradiance

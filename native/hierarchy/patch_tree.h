@@ -44,8 +44,6 @@ struct PatchTree {
     std::vector<float> area;          // m2
     std::vector<float> radius;        // m, of the bounding sphere about the centre
     std::vector<float> cone_cosine;   // all normals below lie within this cosine of `normal`
-    std::vector<vec3> albedo;         // area average, 0..1
-    std::vector<vec3> emission;       // area average radiance, W/(m2 sr)
     std::vector<float> exposed;       // share of the area outside of solids, 0..1
     std::vector<std::uint16_t> exposed_mask;  // leaves: bit 4 j + i set = stratum (i, j) of the 4 x
                                               // 4 strata of patch_point's samples lies outside

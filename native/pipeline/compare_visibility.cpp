@@ -111,7 +111,8 @@ VisibilityError compare_visibility(Scene scene, Options options, int rays_per_li
 
     const DirectLight light(scene, model.rays, options.direct_light, progress);
     const std::vector<vec3> direct = light.leaf_irradiance(model.tree, progress);
-    const TransportInput input = make_transport_input(model.tree, direct, options.direct_light);
+    const TransportInput input =
+        make_transport_input(scene, model.tree, direct, options.direct_light);
     SolveOptions solve;
     solve.iterations = options.iterations;
     const auto solution_over = [&](const LinkSet& links) {

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "hierarchy/patch_materials.h"
 #include "pipeline/choose_solver.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/transport_input.h"
@@ -71,17 +70,16 @@ void forget_direct_light(StageResults& results) {
 
 void run_solve(const StageInput& input, StageResults& results, Report::Timings& timings,
                Progress& progress) {
-    Model& model = *results.model;
+    const Model& model = *results.model;
     if (model.tree.size() == 0) {
         results.solve = {"CPU", "", "no light reaches a surface: there is nothing to solve",
                          0,     0,  true};
         return;
     }
     progress.begin_stage("Solving", 0.6F, 0.75F);
-    average_materials(input.scene, model.tree);
     const Options& options = input.options;
     const TransportInput transport =
-        make_transport_input(model.tree, results.leaf_direct, options.direct_light);
+        make_transport_input(input.scene, model.tree, results.leaf_direct, options.direct_light);
     SolveOptions solve;
     solve.iterations = options.iterations;
     SolverRun run = solve_transport(options.solver, transport.problem(model), solve, progress);

@@ -22,7 +22,8 @@ struct TransportInput {
 };
 
 // direct: #nodes, W/m2 on the exposed part of leaves (DirectLight::leaf_irradiance).
-TransportInput make_transport_input(const PatchTree& tree, std::span<const vec3> direct,
-                                    DirectLightMode mode);
+// scene: as for average_materials().
+TransportInput make_transport_input(const Scene& scene, const PatchTree& tree,
+                                    std::span<const vec3> direct, DirectLightMode mode);
 
 }  // namespace antiradiance

@@ -42,9 +42,8 @@ Stages::Stages(Visibility visibility)
       model(model_of(scene, options)),
       direct(direct_light_of(scene, model.rays, options.direct_light)) {
     Progress progress;
-    source = direct->leaf_irradiance(model.tree, progress);
-    for (std::size_t n = 0; n < source.size(); ++n)
-        source[n] *= model.tree.albedo[n] * kInvPi;
+    input = make_transport_input(scene, model.tree, direct->leaf_irradiance(model.tree, progress),
+                                 options.direct_light);
 }
 
 const Stages& stages(Visibility visibility) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/model.h"
+#include "pipeline/transport_input.h"
 #include "solve/direct_light.h"
 #include "solve/solver.h"
 
@@ -19,11 +20,9 @@ struct Stages {
     Scene scene;
     Model model;
     std::unique_ptr<DirectLight> direct;
-    std::vector<vec3> source;  // #nodes, W/(m2 sr): reflected direct light
+    TransportInput input;
 
-    [[nodiscard]] TransportProblem problem() const {
-        return {model.tree, model.links, source, model.tree.albedo, model.row_scale};
-    }
+    [[nodiscard]] TransportProblem problem() const { return input.problem(model); }
 };
 
 // Made on first use.

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "hierarchy/growing_tree.h"
+#include "hierarchy/patch_materials.h"
 #include "hierarchy/push_pull.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
@@ -245,11 +246,12 @@ TEST(PatchTree, MaterialsAreAveragedOverTexturedPatches) {
     scene.materials[at(m)].albedo_texture = 0;
     test::add_quad(scene, "Quad", vec3(0), vec3(2, 0, 0), vec3(0, 1, 0), m);
     const PatchTree t = test::front_tree(scene, 0.5F);
+    const PatchMaterials materials = average_materials(scene, t);
     for (const NodeId leaf : t.leaves) {
-        EXPECT_NEAR(t.albedo[at(leaf)].x, t.center[at(leaf)].x < 1 ? 0.0F : 0.5F, 0.05F);
-        EXPECT_EQ(t.emission[at(leaf)].x, 2);
+        EXPECT_NEAR(materials.albedo[at(leaf)].x, t.center[at(leaf)].x < 1 ? 0.0F : 0.5F, 0.05F);
+        EXPECT_EQ(materials.emission[at(leaf)].x, 2);
     }
-    EXPECT_NEAR(t.albedo[at(t.surface_node[0])].x, 0.25F, 0.01F);
+    EXPECT_NEAR(materials.albedo[at(t.surface_node[0])].x, 0.25F, 0.01F);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hierarchy/patch_materials.h"
 #include "scene/validate.h"
 #include "solve/direct_light.h"
 
@@ -31,7 +32,7 @@ LitScene::LitScene(const Scene& made, const Options& options)
     Progress progress;
     direct = DirectLight(scene, model.rays, options.direct_light, progress)
                  .leaf_irradiance(model.tree, progress);
-    input = make_transport_input(model.tree, direct, options.direct_light);
+    input = make_transport_input(scene, model.tree, direct, options.direct_light);
 }
 
 std::vector<vec3> LitScene::total_irradiance(const Solution& solution) const {
@@ -44,9 +45,10 @@ std::vector<vec3> LitScene::total_irradiance(const Solution& solution) const {
 }
 
 std::vector<vec3> LitScene::radiance(const Solution& solution) const {
+    const PatchMaterials materials = average_materials(scene, model.tree);
     std::vector<vec3> sent = total_irradiance(solution);
     for (std::size_t n = 0; n < sent.size(); ++n)
-        sent[n] = model.tree.emission[n] + model.tree.albedo[n] * kInvPi * sent[n];
+        sent[n] = materials.emission[n] + materials.albedo[n] * kInvPi * sent[n];
     return sent;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "hierarchy/patch_materials.h"
 #include "links/visibility.h"
 #include "solve/row_normalisation.h"
 #include "support/linked_scene.h"
@@ -20,7 +21,7 @@ struct Linked {
     PatchTree tree;
     LinkSet links;
     std::vector<float> row_scale;
-    std::vector<vec3> albedo;
+    PatchMaterials materials;
     std::size_t cluster_links = 0;
 
     Linked(const Scene& scene, const RayScene& rays, bool clusters) {
@@ -36,7 +37,7 @@ struct Linked {
         links = linked.sorted();
         tree = std::move(linked.tree);
         row_scale = row_scales(tree, links, rays, progress);
-        albedo = tree.albedo;
+        materials = average_materials(scene, tree);
         for (const Segment& s : links.segments) {
             for (std::uint32_t l = s.begin; l < s.end; ++l) {
                 if (tree.is_cluster(s.receiver) || tree.is_cluster(links.links[l].source))
@@ -45,7 +46,7 @@ struct Linked {
         }
     }
     [[nodiscard]] TransportProblem problem() const {
-        return {tree, links, tree.emission, albedo, row_scale};
+        return {tree, links, materials.emission, materials.albedo, row_scale};
     }
 };
 
