@@ -177,7 +177,7 @@ Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
     // Links are cut for each leaf by itself.
     const bool by_leaf = mode.by_leaf || input.links_removed;
     GBuffer buffer =
-        make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct, by_leaf,
+        make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct, input.irradiance, by_leaf,
                       input.film_transparent, input.samples_per_axis, options.direct_samples},
                      progress, {0, kGBufferShare});
     std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));

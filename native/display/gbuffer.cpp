@@ -131,9 +131,20 @@ private:
         fragment.emission += scene.emission_at(hit.triangle, hit.barycentric);
     }
 
-    // Luminance of the direct light on a fragment's leaf, W/m2.
-    [[nodiscard]] float expected(NodeId leaf) const {
-        return leaf == kNone ? 0 : luminance(in_.leaf_direct[static_cast<std::size_t>(leaf)]);
+    // A small fragment needs fewer rays: its noise is but a part of the pixel's.
+    [[nodiscard]] DirectSampling sampling_of(const OpenFragment& open) const {
+        const float coverage =
+            static_cast<float>(open.points.size()) / static_cast<float>(samples_);
+        DirectSampling sampling;
+        sampling.samples = std::max(1, static_cast<int>(std::lround(
+                                           static_cast<float>(in_.direct_samples) * coverage)));
+        sampling.tolerance /= std::sqrt(coverage);
+        if (open.leaf != kNone) {
+            const auto leaf = static_cast<std::size_t>(open.leaf);
+            sampling.expected = luminance(in_.leaf_direct[leaf]);
+            sampling.indirect = luminance(in_.irradiance[leaf]);
+        }
+        return sampling;
     }
 
     [[nodiscard]] std::int64_t key_of(const RayHit& hit, NodeId leaf) const {
@@ -165,7 +176,7 @@ private:
     [[nodiscard]] vec3 direct_irradiance(const OpenFragment& open) const {
         const auto points =
             spread_choice(open.points, static_cast<std::size_t>(in_.direct_samples));
-        return in_.direct.irradiance(points, in_.direct_samples, expected(open.leaf),
+        return in_.direct.irradiance(points, sampling_of(open),
                                      hash_u32(static_cast<std::uint32_t>(pixel_)));
     }
 

@@ -42,10 +42,11 @@ struct GBufferInput {
     const PatchTree& tree;
     const DirectLight& direct;
     std::span<const vec3> leaf_direct;  // #nodes, W/m2 of direct light on each leaf
+    std::span<const vec3> irradiance;   // #nodes, W/m2 over links on each leaf
     bool by_leaf;                       // a fragment for each leaf, not for each surface
     bool film_transparent;              // alpha 0 and no radiance where nothing is seen
     int samples_per_axis;               // anti-aliasing: n x n jittered samples a pixel, box filter
-    int direct_samples;                 // of DirectLight::irradiance()
+    int direct_samples;                 // of DirectSampling, for a whole pixel
 };
 
 [[nodiscard]] GBuffer make_gbuffer(const GBufferInput& input, Progress& progress,

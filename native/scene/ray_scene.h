@@ -43,6 +43,11 @@ public:
     // Towards infinity.
     [[nodiscard]] bool escapes(const vec3& origin, const vec3& direction) const;
 
+    // A point, m, on the ray behind which the scene has nothing; for an origin inside its bounds.
+    [[nodiscard]] vec3 beyond(const vec3& origin, const vec3& direction) const {
+        return origin + direction * (2e5F * epsilon_);
+    }
+
     // m, the length below which two points count as one: 1e-5 of the scene's largest extent, and no
     // less than float can tell apart where the scene lies.
     [[nodiscard]] float epsilon() const { return epsilon_; }

@@ -20,6 +20,17 @@ std::vector<SurfacePoint> spread_choice(std::span<const SurfacePoint> points, st
     return chosen;
 }
 
+std::vector<SurfacePoint> spread_first(std::span<const SurfacePoint> points, std::size_t count) {
+    std::vector<SurfacePoint> ordered = spread_choice(points, count);
+    if (ordered.size() == points.size()) return ordered;
+    const std::size_t stretch = points.size() / count;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t place = i / stretch;
+        if (place >= count || i % stretch != place % stretch) ordered.push_back(points[i]);
+    }
+    return ordered;
+}
+
 DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMode mode,
                          Progress& progress)
     : impl_(std::make_unique<Impl>(Impl{rays})) {
@@ -82,21 +93,24 @@ bool DirectLight::any() const {
     return !impl_->emitters.empty();
 }
 
-vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, int samples, float expected,
+vec3 DirectLight::irradiance(std::span<const SurfacePoint> points, const DirectSampling& sampling,
                              std::uint32_t seed) const {
     if (points.empty() || !any()) return vec3(0);
     IrradianceEstimate estimate(*impl_, points, seed);
-    const int max_rays = kMostSamplesFactor * samples;
+    estimate.add_by_share(spread_first(points, kWeakRays), kWeakRays);
+    const int most = DirectSampling::kMostFactor * sampling.samples;
     const auto count = static_cast<int>(points.size());
-    int passes = (samples + count - 1) / count;
-    int rays = 0;
-    while (passes > 0) {
-        for (int i = 0; i < passes; ++i)
+    int rays = count;
+    while (rays < most) {
+        if (rays >= sampling.samples) {
+            const float direct = luminance(estimate.mean());
+            const bool missing = direct < 0.5F * sampling.expected;
+            const float allowed = sampling.tolerance * (direct + sampling.indirect);
+            if (!estimate.refine(allowed, missing ? most : 0)) break;
+        }
+        const int goal = rays < sampling.samples ? sampling.samples : std::min(2 * rays, most);
+        for (; rays < goal; rays += count)
             estimate.add(points);
-        rays += passes * count;
-        const bool missing = luminance(estimate.mean()) < 0.5F * expected;
-        if (rays >= max_rays || !estimate.refine(kPixelTolerance, missing ? max_rays : 0)) break;
-        passes = std::min(rays / count, (max_rays - rays + count - 1) / count);
     }
     return estimate.mean();
 }

@@ -25,10 +25,30 @@ struct SurfacePoint {
 // stretch, later ones of later stretches. All of them when they are no more.
 [[nodiscard]] std::vector<SurfacePoint> spread_choice(std::span<const SurfacePoint> points,
                                                       std::size_t count);
+// All points, those of spread_choice() first.
+[[nodiscard]] std::vector<SurfacePoint> spread_first(std::span<const SurfacePoint> points,
+                                                     std::size_t count);
+
+// How DirectLight::irradiance() samples.
+struct DirectSampling {
+    // Shadow rays for each light, about: at least one from each point, fewer for weak lights, and
+    // up to kMostFactor times as many where its shadow edge crosses the points. Many lights share
+    // them by the light they can bring.
+    int samples = 16;
+    // Standard error at which rays end, relative to all light: an eye sees about 0.02.
+    float tolerance = 0.015F;
+    // Luminance of the direct light on what is around, W/m2, or 0. Points that seem to get less
+    // than half of it look for hidden lights with all rays: through a slit, most pixels would miss
+    // a light and some find it.
+    float expected = 0;
+    // Luminance of the light that comes another way, W/m2: it hides noise.
+    float indirect = 0;
+
+    static constexpr int kMostFactor = 16;
+};
 
 class DirectLight {
 public:
-    static constexpr int kMostSamplesFactor = 16;
 
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links. kShadowMaps
     // draws the maps, and throws SceneError where OpenGL is missing or fails.
@@ -40,14 +60,9 @@ public:
     [[nodiscard]] bool any() const;
 
     // Mean irradiance, W/m2, over points of one surface that lie close together (those of a pixel).
-    // Takes about `samples` shadow rays for each light, at least one from each point, and up to
-    // kMostSamplesFactor times `samples` where its shadow edge crosses the points; a large number
-    // of lights shares them by the light they can bring.
-    // expected: luminance of what the surroundings get, W/m2, or 0. Points that seem to get less
-    // than half of it look for hidden lights with all rays: through a slit, most pixels would miss
-    // a light and some find it. Deterministic in `seed`. From any thread.
-    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points, int samples, float expected,
-                                  std::uint32_t seed) const;
+    // Deterministic in `seed`. From any thread.
+    [[nodiscard]] vec3 irradiance(std::span<const SurfacePoint> points,
+                                  const DirectSampling& sampling, std::uint32_t seed) const;
 
     // In mode kShadowMaps the way to ask is not irradiance() but, for many groups of points at
     // once, mapped_irradiance(). From one thread.

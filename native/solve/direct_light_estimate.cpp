@@ -28,51 +28,68 @@ ReceiverBounds bounds_of(std::span<const SurfacePoint> points) {
     return b;
 }
 
+bool are_alike(std::span<const SurfacePoint> points, const vec3& normal) {
+    constexpr float kCosine = 0.999F;  // 2.6 degrees
+    return std::all_of(points.begin(), points.end(), [&](const SurfacePoint& p) {
+        return glm::dot(p.shading_normal, normal) >= kCosine;
+    });
+}
+
 }  // namespace
 
 IrradianceEstimate::IrradianceEstimate(const DirectLight::Impl& light,
                                        std::span<const SurfacePoint> points, std::uint32_t seed,
                                        std::uint32_t hemisphere_rays)
-    : light_(light), seed_(seed), hemisphere_rays_(hemisphere_rays) {
+    : light_(light),
+      seed_(seed),
+      receivers_(bounds_of(points)),
+      flat_(are_alike(points, receivers_.normal)),
+      hemisphere_rays_(hemisphere_rays),
+      batch_(light.rays) {
     sums_.reserve(light.always.size());
     for (const std::int32_t emitter : light.always)
-        sums_.push_back({.emitter = emitter});
+        add_sum(emitter);
     if (light.in_tree.empty()) return;
-    receivers_ = bounds_of(points);
     chosen_active_ = true;
     light.tree.choose(receivers_, kChoices, 0.5F, choices_);
     for (const EmitterChoice& choice : choices_) {
         if (choice.probability * kChoices < kOwnRays) continue;
-        sums_.push_back({.emitter = light.in_tree[static_cast<std::size_t>(choice.emitter)]});
+        add_sum(light.in_tree[static_cast<std::size_t>(choice.emitter)]);
     }
 }
 
-vec3 IrradianceEstimate::arriving(const SurfacePoint& point, const LightSample& sample) const {
-    if (sample.weight <= 0 || max_component(sample.radiance) <= 0) return vec3(0);
-    if (glm::dot(sample.direction, point.normal) <= 0) return vec3(0);
-    const float epsilon = light_.rays.epsilon();
-    const vec3 origin = point.position + point.normal * epsilon;
-    const bool blocked = sample.distance >= RayScene::kInfinity
-                             ? !light_.rays.escapes(origin, sample.direction)
-                             : light_.rays.occluded(origin, sample.target);
-    return blocked ? vec3(0) : sample.radiance;
+void IrradianceEstimate::add_sum(std::int32_t index) {
+    Sum& sum = sums_.emplace_back();
+    sum.emitter = index;
+    const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(index)];
+    if (!flat_ || emitter.at_infinity()) return;
+    const EmitterBounds bounds = emitter.bounds();
+    const float distance = glm::distance(receivers_.center, bounds.center) - bounds.radius;
+    sum.far = receivers_.radius * kFar < distance;
+    if (sum.far)
+        sum.of_centre = emitter.unshadowed({receivers_.center, receivers_.normal, receivers_.normal});
 }
 
 void IrradianceEstimate::add_own(Sum& sum, std::span<const SurfacePoint> points) {
     const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(sum.emitter)];
     const std::uint32_t seed = hash_combine(seed_, static_cast<std::uint32_t>(sum.emitter));
+    batch_.clear();
     for (const SurfacePoint& point : points) {
         const std::uint32_t index = sum.rays++;
-        const float unshadowed = emitter.unshadowed(point);
+        const float unshadowed = sum.far ? sum.of_centre : emitter.unshadowed(point);
         if (unshadowed <= 0) continue;
         sum.unshadowed += unshadowed;
         sum.unshadowed2 += static_cast<double>(unshadowed) * unshadowed;
         const LightSample sample = emitter.sample(point, r2_sample(index, seed));
-        const vec3 radiance = arriving(point, sample);
-        const double y = static_cast<double>(sample.weight) * luminance(radiance);
+        sum.open += static_cast<double>(sample.weight) * luminance(sample.radiance);
+        batch_.add(point, sample);
+    }
+    batch_.trace();
+    for (const LightSample& sample : batch_.samples()) {
+        const double y = static_cast<double>(sample.weight) * luminance(sample.radiance);
         const double w = sample.weight;
         sum.weight += w;
-        sum.arrived += sample.weight * radiance;
+        sum.arrived += sample.weight * sample.radiance;
         sum.yy += y * y;
         sum.yw += y * w;
         sum.ww += w * w;
@@ -93,6 +110,7 @@ float IrradianceEstimate::share_of_choice(const SurfacePoint& point, const vec3&
 void IrradianceEstimate::sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass,
                                         SampleSum& samples) {
     const std::uint32_t seed = hash_combine(seed_, 0x7f4a7c15U);
+    batch_.clear();
     for (const EmitterChoice& choice : choices_) {
         if (choice.probability * kChoices >= kOwnRays) continue;
         const auto index = light_.in_tree[static_cast<std::size_t>(choice.emitter)];
@@ -103,14 +121,17 @@ void IrradianceEstimate::sample_choices(std::span<const SurfacePoint> points, st
             const std::uint32_t turn = i * 37U + pass;
             const SurfacePoint& point = points[turn % points.size()];
             if (emitter.unshadowed(point) <= 0) continue;
-            const LightSample s = emitter.sample(point, r2_sample(pass * kChoices + i, seed));
+            LightSample s = emitter.sample(point, r2_sample(pass * kChoices + i, seed));
             if (s.weight <= 0) continue;
             const float share = share_of_choice(point, s.direction, choice.probability,
                                                 emitter.density(point, s.direction));
-            samples.add(arriving(point, s) *
-                        (share * s.weight / static_cast<float>(choice.probability)));
+            s.weight *= share / static_cast<float>(choice.probability);
+            batch_.add(point, s);
         }
     }
+    batch_.trace();
+    for (const LightSample& s : batch_.samples())
+        samples.add(s.weight * s.radiance);
 }
 
 // The light of the tree's emitters along a direction, pi L W/m2, by the share that the hemisphere's
@@ -168,6 +189,28 @@ void IrradianceEstimate::add(std::span<const SurfacePoint> points) {
     if (chosen_active_) add_chosen(points);
 }
 
+void IrradianceEstimate::add_by_share(std::span<const SurfacePoint> points, std::size_t few) {
+    if (few >= points.size()) {
+        add(points);
+        return;
+    }
+    double open = 0;
+    for (Sum& sum : sums_) {
+        add_own(sum, points.first(few));
+        open += open_of(sum);
+    }
+    // By what could arrive: a choice by what does would not be fair to the rays that met nothing.
+    for (Sum& sum : sums_) {
+        if (open_of(sum) > kWeak * open) add_own(sum, points.subspan(few));
+    }
+    if (chosen_active_) add_chosen(points);
+}
+
+// Luminance of the irradiance if nothing were in the way.
+double IrradianceEstimate::open_of(const Sum& sum) {
+    return sum.weight > 0 ? sum.unshadowed / sum.rays * sum.open / sum.weight : 0;
+}
+
 vec3 IrradianceEstimate::mean_of(const Sum& sum) {
     if (sum.weight <= 0 || sum.rays == 0) return vec3(0);
     return sum.arrived * static_cast<float>(sum.unshadowed / sum.rays / sum.weight);
@@ -188,8 +231,7 @@ double IrradianceEstimate::error_of(const Sum& sum) {
     return kSequenceGain * shadow + ratio * std::sqrt(variance) / sum.rays;
 }
 
-bool IrradianceEstimate::refine(float tolerance, int shadow_rays) {
-    const double allowed = tolerance * luminance(mean());
+bool IrradianceEstimate::refine(float allowed, int shadow_rays) {
     bool any = false;
     for (Sum& sum : sums_) {
         const bool hidden = sum.weight > 0 && max_component(sum.arrived) <= 0;

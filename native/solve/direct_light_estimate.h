@@ -21,22 +21,25 @@
 #include "solve/direct_light.h"
 #include "solve/direct_light_emitter.h"
 #include "solve/direct_light_tree.h"
+#include "solve/sample_batch.h"
 
 namespace antiradiance {
 
 // With no more emitters than this, each gets its own rays.
 inline constexpr std::size_t kMostEmittersEach = 16;
+// What brings less than this share of the light, if nothing is in the way, gets only so many rays
+// at first.
+inline constexpr float kWeak = 0.08F;
+inline constexpr std::size_t kWeakRays = 4;
+// From this many radii of the receivers on, one closed form stands for all of them: E falls with
+// the distance squared, so that its mean over them is .3 % more than E of their mean at most.
+inline constexpr float kFar = 16;
 // An emitter that would be chosen this often in one pass gets its own rays too.
 inline constexpr double kOwnRays = 4;
 // Choices among many emitters in one pass, divided over the points.
 inline constexpr std::uint32_t kChoices = 64;
 // Rays over the hemisphere beside them, as long as any of them meets an emitter.
 inline constexpr std::uint32_t kHemisphereRays = 8;
-// Rays of a leaf for an emitter that seems to be hidden altogether.
-inline constexpr int kLeafShadowRays = 64;
-// Standard error at which rays end, relative to the irradiance: an eye sees about 0.02.
-inline constexpr float kPixelTolerance = 0.015F;
-inline constexpr float kLeafTolerance = 0.01F;
 
 class MappedLight;
 
@@ -59,10 +62,13 @@ public:
 
     // One shadow ray to each emitter that is still active from each point.
     void add(std::span<const SurfacePoint> points);
+    // As add(), but weak emitters are looked at from the first `few` points only.
+    void add_by_share(std::span<const SurfacePoint> points, std::size_t few);
 
-    // Leaves active only those emitters whose error matters; false: none does. An emitter none of
-    // whose light has arrived says nothing of its error: it gets up to `shadow_rays`.
-    bool refine(float tolerance, int shadow_rays);
+    // Leaves active only those emitters whose standard error is above `allowed` (luminance, W/m2);
+    // false: none is. An emitter none of whose light has arrived says nothing of its error: it
+    // gets up to `shadow_rays`.
+    bool refine(float allowed, int shadow_rays);
 
     [[nodiscard]] vec3 mean() const;  // W/m2
 
@@ -70,10 +76,13 @@ private:
     struct Sum {
         std::int32_t emitter = kNone;
         bool active = true;
+        bool far = false;  // `of_centre` stands for unshadowed() of all receivers
+        float of_centre = 0;
         std::uint32_t rays = 0;
         double unshadowed = 0;   // sum over rays
         double unshadowed2 = 0;  // sum of squares
         double weight = 0;       // sum
+        double open = 0;         // sum of weight x luminance, arriving or not
         vec3 arrived{0};         // sum of weight x radiance that arrives
         // Sums for the ratio's error: y = weight x luminance that arrives, w = weight.
         double yy = 0, yw = 0, ww = 0;
@@ -95,6 +104,7 @@ private:
         }
     };
 
+    void add_sum(std::int32_t emitter);
     void add_own(Sum& sum, std::span<const SurfacePoint> points);
     void add_chosen(std::span<const SurfacePoint> points);
     void sample_choices(std::span<const SurfacePoint> points, std::uint32_t pass,
@@ -104,14 +114,15 @@ private:
     [[nodiscard]] vec3 arriving_from(const SurfacePoint& point, const vec3& direction) const;
     [[nodiscard]] float share_of_choice(const SurfacePoint& point, const vec3& direction,
                                         double probability, float density) const;
-    [[nodiscard]] vec3 arriving(const SurfacePoint& point, const LightSample& sample) const;
     [[nodiscard]] static vec3 mean_of(const Sum& sum);
+    [[nodiscard]] static double open_of(const Sum& sum);
     [[nodiscard]] static double error_of(const Sum& sum);
 
     const DirectLight::Impl& light_;
     std::uint32_t seed_;
     std::vector<Sum> sums_;
     ReceiverBounds receivers_;
+    bool flat_;  // the receivers' normals are alike
     // Emitters chosen at random, per pass over kChoices samples.
     bool chosen_active_ = false;
     std::uint32_t hemisphere_rays_;  // of the next pass
@@ -119,6 +130,7 @@ private:
     vec3 chosen_{0};         // sum over passes, W/m2
     double chosen_var_ = 0;  // sum over passes of the variance of a pass's mean
     std::vector<EmitterChoice> choices_;
+    SampleBatch batch_;  // of the emitter at hand
 };
 
 }  // namespace antiradiance

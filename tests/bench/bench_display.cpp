@@ -39,7 +39,8 @@ struct View {
         for (vec3& l : light)
             l = vec3(uniform(random));
         buffer = make_gbuffer(
-            {scene, room.model.rays, room.model.tree, *room.direct, light, false, false, 4, 16},
+            {scene, room.model.rays, room.model.tree, *room.direct, light, light, false,
+             false, 4, 16},
             progress, {});
         antiradiance = antiradiance_table(room.model.tree, room.model.links, light, progress);
     }

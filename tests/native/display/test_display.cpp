@@ -49,7 +49,7 @@ struct Stage {
 
     GBuffer gbuffer(int samples_per_axis = 4, bool transparent = false) {
         return make_gbuffer(
-            {scene, rays, tree, direct, irradiance, true, transparent, samples_per_axis, 16},
+            {scene, rays, tree, direct, irradiance, irradiance, true, transparent, samples_per_axis, 16},
             progress, {0, 1});
     }
     Picture picture(bool transparent = false) {

@@ -32,7 +32,7 @@ struct Stage {
             const vec2 d = (r2_sample(i, 3) - 0.5F) * size;
             points.push_back({p + vec3(d, 0), n, n});
         }
-        return light.irradiance(points, samples, 0, seed);
+        return light.irradiance(points, {.samples = samples}, seed);
     }
     Progress progress;
     Scene scene;
@@ -266,9 +266,9 @@ TEST(DirectLight, below_the_geometric_horizon_there_is_no_light) {
     const Stage stage(scene);
     const vec3 leaning = glm::normalize(vec3(1, 0, 1));
     const SurfacePoint tilted{vec3(0), kUp, leaning};
-    EXPECT_EQ(stage.light.irradiance({&tilted, 1}, 16, 0, 1), vec3(0));
+    EXPECT_EQ(stage.light.irradiance({&tilted, 1}, {.samples = 16}, 1), vec3(0));
     const SurfacePoint flat{vec3(0), leaning, leaning};
-    EXPECT_GT(stage.light.irradiance({&flat, 1}, 16, 0, 1).x, 0.5F);
+    EXPECT_GT(stage.light.irradiance({&flat, 1}, {.samples = 16}, 1).x, 0.5F);
 }
 
 class LeafIrradiance : public testing::Test {

@@ -24,7 +24,7 @@ vec3 irradiance_at(const Scene& scene, const vec3& p, const vec3& n, int samples
     Progress progress;
     const DirectLight light(scene, ray_scene, DirectLightMode::kExplicit, progress);
     const SurfacePoint point{p, n, n};
-    return light.irradiance({&point, 1}, samples, 0, 7);
+    return light.irradiance({&point, 1}, {.samples = samples}, 7);
 }
 
 const vec3 kUp(0, 0, 1);
@@ -187,7 +187,7 @@ vec3 pixel_center(float i, float j) {
 float mean_over_seeds(const DirectLight& light, std::span<const SurfacePoint> points, int seeds) {
     float sum = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-        sum += light.irradiance(points, 64, 0, static_cast<std::uint32_t>(seed)).x;
+        sum += light.irradiance(points, {.samples = 64}, static_cast<std::uint32_t>(seed)).x;
     }
     return sum / static_cast<float>(seeds);
 }

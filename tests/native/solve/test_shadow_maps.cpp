@@ -35,7 +35,7 @@ struct Stage {
     }
     [[nodiscard]] float at(const vec3& p, const vec3& n = kUp) { return by_maps({{p, n, n}})[0].x; }
     [[nodiscard]] vec3 by_rays(const SurfacePoint& point) const {
-        return traced.irradiance({&point, 1}, 1024, 0, 1);
+        return traced.irradiance({&point, 1}, {.samples = 1024}, 1);
     }
 
     Progress progress;
