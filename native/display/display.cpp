@@ -10,6 +10,7 @@
 #include "display/gbuffer.h"
 #include "display/interleave.h"
 #include "display/patch_lights.h"
+#include "display/shared_receivers.h"
 #include "display/shooting.h"
 #include "display/source_lists.h"
 #include "solve/antiradiance_table.h"
@@ -94,9 +95,8 @@ std::vector<vec3> shoot_interleaved(const DisplayInput& input, const GBuffer& bu
     return irradiance;
 }
 
-std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
-                                  const GBuffer& buffer, DisplayBackend& backend,
-                                  Progress& progress) {
+std::vector<vec3> shoot_at(const DisplayInput& input, const DisplayOptions& options,
+                           const GBuffer& buffer, DisplayBackend& backend, Progress& progress) {
     const FragmentGroups groups = input.links_removed
                                       ? receiver_groups(buffer)
                                       : tile_groups(buffer, eye_of(input.scene.camera),
@@ -128,6 +128,15 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
                               2 * input.rays.epsilon()},
                              progress, span);
     });
+}
+
+std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
+                                  const GBuffer& buffer, DisplayBackend& backend,
+                                  Progress& progress) {
+    // Links are cut for each leaf by itself.
+    if (input.links_removed) return shoot_at(input, options, buffer, backend, progress);
+    const SharedReceivers shared = share_receivers(input.tree, buffer);
+    return shared.spread(shoot_at(input, options, shared.receivers, backend, progress));
 }
 
 // Whether a mode has sums for a back end.
@@ -176,10 +185,10 @@ Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
     const Mode& mode = find_mode(options.mode);
     // Links are cut for each leaf by itself.
     const bool by_leaf = mode.by_leaf || input.links_removed;
-    GBuffer buffer =
-        make_gbuffer({input.scene, input.rays, input.tree, input.direct, input.leaf_direct, input.irradiance, by_leaf,
-                      input.film_transparent, input.samples_per_axis, options.direct_samples},
-                     progress, {0, kGBufferShare});
+    GBuffer buffer = make_gbuffer(
+        {input.scene, input.rays, input.tree, input.direct, input.leaf_direct, input.irradiance,
+         by_leaf, input.film_transparent, input.samples_per_axis, options.direct_samples},
+        progress, {0, kGBufferShare});
     std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));
     if (input.tree.size() > 0) indirect = mode.indirect(input, options, buffer, backend, progress);
     Picture picture;

@@ -136,8 +136,8 @@ private:
         const float coverage =
             static_cast<float>(open.points.size()) / static_cast<float>(samples_);
         DirectSampling sampling;
-        sampling.samples = std::max(1, static_cast<int>(std::lround(
-                                           static_cast<float>(in_.direct_samples) * coverage)));
+        sampling.samples = std::max(
+            1, static_cast<int>(std::lround(static_cast<float>(in_.direct_samples) * coverage)));
         sampling.tolerance /= std::sqrt(coverage);
         if (open.leaf != kNone) {
             const auto leaf = static_cast<std::size_t>(open.leaf);
@@ -250,6 +250,17 @@ void light_by_maps(const DirectLight& direct, Sampled& band, Progress& progress,
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> pixel_starts(const GBuffer& buffer) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(buffer.width) * static_cast<std::size_t>(buffer.height);
+    std::vector<std::uint32_t> first(pixels + 1, 0);
+    for (const Fragment& f : buffer.fragments)
+        ++first[f.pixel + 1UL];
+    for (std::size_t p = 0; p < pixels; ++p)
+        first[p + 1] += first[p];
+    return first;
+}
 
 GBuffer make_gbuffer(const GBufferInput& input, Progress& progress, ProgressSpan span) {
     const Camera& camera = input.scene.camera;

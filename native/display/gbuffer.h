@@ -36,6 +36,9 @@ struct GBuffer {
     std::vector<vec3> normal;      // world space, mean over the pixel's surfaces, unit or 0
 };
 
+// Where each pixel's fragments begin, and the end.  // #pixels + 1, into GBuffer::fragments
+[[nodiscard]] std::vector<std::uint32_t> pixel_starts(const GBuffer& buffer);
+
 struct GBufferInput {
     const Scene& scene;  // has a camera
     const RayScene& rays;

@@ -25,13 +25,7 @@ bool on_one_surface(const Fragment& a, const Fragment& b) {
 std::vector<vec3> interleave_blur(const GBuffer& buffer, std::span<const vec3> irradiance, int n,
                                   Progress& progress) {
     if (n <= 1) return {irradiance.begin(), irradiance.end()};
-    // Fragments are in the order of their pixels.
-    std::vector<std::uint32_t> first(buffer.depth.size() + 1, 0);
-    for (const Fragment& f : buffer.fragments)
-        ++first[f.pixel + 1UL];
-    for (std::size_t p = 0; p < buffer.depth.size(); ++p)
-        first[p + 1] += first[p];
-
+    const std::vector<std::uint32_t> first = pixel_starts(buffer);
     std::vector<vec3> result(irradiance.size());
     parallel_for_blocks(result.size(), 256, progress, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -24,6 +24,7 @@ struct Receiver {
     SurfaceId surface;   // kNone: on a side that no link reaches
     std::uint32_t turn;  // where its choice among a patch's points begins
     float expected;      // luminance of about all light that it gets, W/m2
+    float rays_owed;     // 0..1, for the light of weak patches so far
     vec3 irradiance{0};  // W/m2, the result
 };
 
@@ -45,8 +46,10 @@ inline float transfer_from_point(const Receiver& r, const vec3& d, float d2) {
 class PatchShooter {
 public:
     virtual ~PatchShooter() = default;
-    // Adds the light of a patch to receivers that lie close together.
+    // Adds the light of a patch to receivers that lie close together. They stay where they are
+    // until finish(), which may be what adds it.
     virtual void light(NodeId source, std::span<Receiver> receivers) = 0;
+    virtual void finish() {}
 };
 
 // Radiance in front of each patch, antiradiance behind it (the paper's section 5).

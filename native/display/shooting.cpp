@@ -42,7 +42,9 @@ std::vector<Receiver> make_receivers(const ShootingInput& input,
     receivers.reserve(fragments.size());
     for (const std::uint32_t i : fragments) {
         const Fragment& f = input.buffer.fragments[i];
-        Receiver r{f.position, f.normal, f.shading_normal, kNone, hash_u32(f.pixel), 0};
+        const std::uint32_t hash = hash_u32(f.pixel);
+        Receiver r{
+            f.position, f.normal, f.shading_normal, kNone, hash, 0, to_unit_float(hash_u32(hash))};
         if (f.leaf != kNone) {
             const auto leaf = static_cast<std::size_t>(f.leaf);
             r.surface = input.tree.surface[leaf];
@@ -65,6 +67,7 @@ void shoot_group(const ShootingInput& input, std::size_t g, PatchShooter& shoote
         const std::uint32_t end = subsets.first(k + 1);
         if (begin < end) shooter.light(sources[s], {receivers.data() + begin, end - begin});
     }
+    shooter.finish();
     const auto scale = static_cast<float>(subsets.count());
     for (std::size_t i = 0; i < receivers.size(); ++i)
         irradiance[subsets.fragments[i]] = scale * receivers[i].irradiance;

@@ -13,6 +13,10 @@ namespace {
 
 using glsl::kClose;
 
+constexpr std::size_t kBatch = 128;  // rays that are traced together
+// Share of a fragment's light that is worth a ray.
+constexpr float kWorthRay = 0.004F;
+
 // Shadow rays by the share of the fragment's light that a patch can bring: many weak patches add
 // up smoothly with one each, a strong one shows the edges of single rays' shadows.
 std::size_t ray_count(float share, std::size_t most) {
@@ -28,15 +32,17 @@ public:
         : tree_(tree), lights_(lights), clusters_(clusters), scene_(rays) {}
 
     void light(NodeId source, std::span<Receiver> receivers) override;
+    void finish() override;
 
 private:
     // W/m2 without occluders; d: from the light's centre to the receiver.
     [[nodiscard]] vec3 unoccluded(NodeId source, const Receiver& r, const vec3& d) const;
-    void add_rays(NodeId source, const Receiver& r, std::size_t index, const vec3& light);
+    static bool is_worth_ray(Receiver& r, vec3& light);
+    void add_rays(NodeId source, Receiver& r, const vec3& light);
 
     // What a ray brings if nothing blocks it.
     struct Share {
-        std::size_t receiver;
+        Receiver* receiver;
         float weight;
         vec3 light;  // W/m2
     };
@@ -45,25 +51,29 @@ private:
     const PatchLights& lights_;
     std::span<const Moments> clusters_;
     const RayScene& scene_;
-    // Of the light at hand, one share for each ray.
+    // Of patches whose rays are still to be traced, one share for each ray.
     std::vector<Share> shares_;
     std::vector<ShadowRay> rays_;
     std::vector<std::uint8_t> blocked_;
 };
 
+// A group of few fragments would leave most of a packet empty: rays of several patches go together.
 void RayShooter::light(NodeId source, std::span<Receiver> receivers) {
-    shares_.clear();
-    rays_.clear();
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-        const Receiver& r = receivers[i];
-        const vec3 light = unoccluded(source, r, r.position - lights_[source].center);
-        if (max_component(light) > 0) add_rays(source, r, i, light);
+    for (Receiver& r : receivers) {
+        vec3 light = unoccluded(source, r, r.position - lights_[source].center);
+        if (max_component(light) > 0 && is_worth_ray(r, light)) add_rays(source, r, light);
     }
+    if (rays_.size() >= kBatch) finish();
+}
+
+void RayShooter::finish() {
     blocked_.resize(rays_.size());
     scene_.occluded(rays_, blocked_);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        if (!blocked_[i]) receivers[shares_[i].receiver].irradiance += shares_[i].light;
+        if (!blocked_[i]) shares_[i].receiver->irradiance += shares_[i].light;
     }
+    shares_.clear();
+    rays_.clear();
 }
 
 vec3 RayShooter::unoccluded(NodeId source, const Receiver& r, const vec3& d) const {
@@ -83,9 +93,21 @@ vec3 RayShooter::unoccluded(NodeId source, const Receiver& r, const vec3& d) con
            s.radiance;
 }
 
+// Of weak patches one in so many gets a ray, in proportion to its light, which then stands for
+// theirs: systematic sampling along the list, where neighbours are neighbours in the scene.
+bool RayShooter::is_worth_ray(Receiver& r, vec3& light) {
+    const float rays = luminance(light) / (kWorthRay * r.expected);
+    if (!(rays < 1)) return true;  // nor where nothing is expected
+    r.rays_owed += rays;
+    if (r.rays_owed < 1) return false;
+    r.rays_owed -= 1;
+    light /= rays;
+    return true;
+}
+
 // The light is shared out among the points by what each can bring, so that it has no noise where
 // nothing is in the way.
-void RayShooter::add_rays(NodeId source, const Receiver& r, std::size_t index, const vec3& light) {
+void RayShooter::add_rays(NodeId source, Receiver& r, const vec3& light) {
     const std::span<const LightPoint> points = lights_.points(source);
     const std::size_t count = ray_count(luminance(light) / r.expected, points.size());
     const vec3 origin = r.position + r.normal * scene_.epsilon();
@@ -98,7 +120,7 @@ void RayShooter::add_rays(NodeId source, const Receiver& r, std::size_t index, c
         const float w = transfer(r, point.normal, d, glm::dot(d, d));
         if (w <= 0) continue;  // below the horizon
         sum += w;
-        shares_.push_back({index, w, light});
+        shares_.push_back({&r, w, light});
         rays_.push_back({origin, point.position + point.normal * scene_.epsilon()});
     }
     for (std::size_t i = first; i < shares_.size(); ++i)

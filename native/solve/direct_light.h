@@ -36,7 +36,7 @@ struct DirectSampling {
     // them by the light they can bring.
     int samples = 16;
     // Standard error at which rays end, relative to all light: an eye sees about 0.02.
-    float tolerance = 0.015F;
+    float tolerance = 0.01F;
     // Luminance of the direct light on what is around, W/m2, or 0. Points that seem to get less
     // than half of it look for hidden lights with all rays: through a slit, most pixels would miss
     // a light and some find it.
@@ -49,7 +49,6 @@ struct DirectSampling {
 
 class DirectLight {
 public:
-
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links. kShadowMaps
     // draws the maps, and throws SceneError where OpenGL is missing or fails.
     // Borrows the rays, which must outlive it.

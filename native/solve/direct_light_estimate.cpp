@@ -67,7 +67,8 @@ void IrradianceEstimate::add_sum(std::int32_t index) {
     const float distance = glm::distance(receivers_.center, bounds.center) - bounds.radius;
     sum.far = receivers_.radius * kFar < distance;
     if (sum.far)
-        sum.of_centre = emitter.unshadowed({receivers_.center, receivers_.normal, receivers_.normal});
+        sum.of_centre =
+            emitter.unshadowed({receivers_.center, receivers_.normal, receivers_.normal});
 }
 
 void IrradianceEstimate::add_own(Sum& sum, std::span<const SurfacePoint> points) {

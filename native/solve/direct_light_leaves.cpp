@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint32_t kStrata = 16;  // of PatchTree::exposed_mask, 4 x 4
 constexpr int kFirstRays = 16;         // for each emitter and leaf, before a look at the error
 constexpr int kMostRays = 256;
-constexpr int kShadowRays = 64;      // for an emitter that seems to be hidden altogether
-constexpr float kTolerance = 0.01F;  // standard error at which rays end, relative
+constexpr int kShadowRays = 64;        // for an emitter that seems to be hidden altogether
+constexpr float kTolerance = 0.01F;    // standard error at which rays end, relative
 constexpr std::size_t kMapPoints = 4;  // of a leaf that shadow maps light
 constexpr std::size_t kBlock = 16;     // leaves; a few ms
 

@@ -38,10 +38,9 @@ struct View {
         std::uniform_real_distribution<float> uniform(0, 1);
         for (vec3& l : light)
             l = vec3(uniform(random));
-        buffer = make_gbuffer(
-            {scene, room.model.rays, room.model.tree, *room.direct, light, light, false,
-             false, 4, 16},
-            progress, {});
+        buffer = make_gbuffer({scene, room.model.rays, room.model.tree, *room.direct, light, light,
+                               false, false, 4, 16},
+                              progress, {});
         antiradiance = antiradiance_table(room.model.tree, room.model.links, light, progress);
     }
     [[nodiscard]] FragmentGroups tiles() const {
