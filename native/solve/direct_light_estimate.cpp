@@ -201,8 +201,10 @@ void IrradianceEstimate::add_by_share(std::span<const SurfacePoint> points, std:
         open += open_of(sum);
     }
     // By what could arrive: a choice by what does would not be fair to the rays that met nothing.
+    // What reaches none of the few points, as past the rim of a spot, may reach others.
     for (Sum& sum : sums_) {
-        if (open_of(sum) > kWeak * open) add_own(sum, points.subspan(few));
+        const double share = open_of(sum);
+        if (share <= 0 || share > kWeak * open) add_own(sum, points.subspan(few));
     }
     if (chosen_active_) add_chosen(points);
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -362,6 +363,51 @@ TEST_F(LeafIrradiance, inner_nodes_stay_zero_and_cancel_works) {
     Progress cancelled(nullptr, [] { return true; });
     cancelled.cancel();
     EXPECT_THROW(std::ignore = light.leaf_irradiance(tree, cancelled), Cancelled);
+}
+
+TEST(SpreadFirst, keeps_all_points_and_begins_with_the_diagonal) {
+    std::vector<SurfacePoint> points;
+    for (int i = 0; i < 16; ++i)
+        points.push_back({vec3(i, 0, 0), kUp, kUp});
+    const std::vector<SurfacePoint> ordered = spread_first(points, 4);
+    std::vector<float> places;
+    for (const SurfacePoint& p : ordered)
+        places.push_back(p.position.x);
+    EXPECT_EQ(std::vector<float>(places.begin(), places.begin() + 4),
+              (std::vector<float>{0, 5, 10, 15}));
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 0; i < 16; ++i)
+        EXPECT_EQ(places[i], static_cast<float>(i));
+}
+
+// Rays end earlier where other light hides their noise, which changes nothing on the average.
+TEST(DirectLight, noise_that_indirect_light_hides_is_left) {
+    Scene scene;
+    const int white = test::add_material(scene, vec3(0.5F));
+    test::add_quad(scene, "blind", vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 1, 0), white);
+    const int bright = test::add_material(scene, vec3(0), vec3(1));
+    test::add_quad(scene, "lamp", vec3(-0.5F, -0.5F, 2), kY, kX, bright);
+    const Stage stage(scene);
+    const SurfacePoint point{vec3(0), kUp, kUp};
+    double strict = 0;
+    double lax = 0;
+    double strict_error = 0;
+    double lax_error = 0;
+    constexpr int kRuns = 400;
+    const float truth = stage.light.irradiance({&point, 1}, {.samples = 4096}, 1).x;
+    for (std::uint32_t seed = 0; seed < kRuns; ++seed) {
+        const float a = stage.light.irradiance({&point, 1}, {}, seed).x;
+        const float b = stage.light.irradiance({&point, 1}, {.indirect = 100 * truth}, seed).x;
+        strict += a / kRuns;
+        lax += b / kRuns;
+        strict_error += (a - truth) * (a - truth) / kRuns;
+        lax_error += (b - truth) * (b - truth) / kRuns;
+    }
+    // 400 runs: the error of their mean is a twentieth of a run's.
+    EXPECT_NEAR(strict, truth, 4 * std::sqrt(strict_error) / 20 + 0.002 * truth);
+    EXPECT_NEAR(lax, truth, 4 * std::sqrt(lax_error) / 20 + 0.002 * truth);
+    EXPECT_LT(std::sqrt(strict_error), 0.02 * truth);
+    EXPECT_GT(lax_error, 2 * strict_error);
 }
 
 }  // namespace
