@@ -15,9 +15,10 @@ ALLOWED = {
     "scene": {"base"},
     "hierarchy": {"base", "scene"},
     "links": {"base", "scene", "hierarchy"},
-    "solve": {"base", "scene", "hierarchy", "links"},
-    "display": {"base", "gpu", "scene", "hierarchy", "links", "solve"},
-    "pipeline": {"base", "gpu", "scene", "hierarchy", "links", "solve", "display"},
+    "prune": {"base", "scene", "hierarchy", "links"},
+    "solve": {"base", "scene", "hierarchy", "links", "prune"},
+    "display": {"base", "gpu", "scene", "hierarchy", "links", "prune", "solve"},
+    "pipeline": {"base", "gpu", "scene", "hierarchy", "links", "prune", "solve", "display"},
 }
 ALLOWED["bind"] = ALLOWED["pipeline"] | {"pipeline"}
 ALLOWED["tools"] = ALLOWED["pipeline"] | {"pipeline"}
