@@ -27,8 +27,12 @@ public:
           links_(links),
           shapes_(blockers.shapes),
           regions_(blockers.regions),
+          region_of_(blockers.region_of),
           options_(options),
           test_(blockers.regions),
+          clusters_receive_(
+              std::any_of(links.segments.begin(), links.segments.end(),
+                          [&](const Segment& s) { return tree.is_cluster(s.receiver); })),
           seen_(blockers.regions.regions.size(), kAbsent) {}
 
     void classify_bin(int bin, std::vector<LinkVisibility>& result) {
@@ -53,7 +57,8 @@ private:
         corners_.clear();
         blockers_.clear();
         candidates_ = 0;
-        for (NodeId up = receiver_; up != kNone; up = tree_.parent[static_cast<std::size_t>(up)])
+        for (NodeId up = receiver_; up != kNone && (clusters_receive_ || !tree_.is_cluster(up));
+             up = tree_.parent[static_cast<std::size_t>(up)])
             add_candidates(segments_[up]);
         const NodeId end = tree_.subtree_end[static_cast<std::size_t>(receiver_)];
         for (NodeId child = receiver_ + 1; child < end;
@@ -154,8 +159,10 @@ private:
     const LinkSet& links_;
     const NodeShapes& shapes_;
     const ConvexRegions& regions_;
+    const std::vector<RegionId>& region_of_;
     ClassifyOptions options_;
     ShaftTest test_;
+    bool clusters_receive_;
     BinSegments segments_;
     // Of the receiver at hand:
     SegmentId row_ = kAbsent;
@@ -168,6 +175,16 @@ private:
 };
 
 }  // namespace
+
+Blockers::Blockers(const Scene& scene, const PatchTree& tree)
+    : shapes(tree),
+      regions(find_convex_regions(scene, tree.surfaces)),
+      region_of(tree.size(), kNone) {
+    for (std::size_t n = 0; n < tree.size(); ++n) {
+        if (tree.surface[n] != kNone)
+            region_of[n] = regions.of_surface[static_cast<std::size_t>(tree.surface[n])];
+    }
+}
 
 std::vector<LinkVisibility> classify_links(const PatchTree& tree, const LinkSet& links,
                                            const Blockers& blockers, const ClassifyOptions& options,

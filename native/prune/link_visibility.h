@@ -33,8 +33,11 @@ struct ClassifyOptions {
 
 // What the blocking test knows of the scene.
 struct Blockers {
+    Blockers(const Scene& scene, const PatchTree& tree);
+
     NodeShapes shapes;
     ConvexRegions regions;
+    std::vector<RegionId> region_of;  // #nodes: of patches; kNone: blocks nothing
 };
 
 // Algorithm 2 for all links, + and -. Candidates for O are the sources of links that end in the

@@ -15,7 +15,7 @@ namespace {
 
 RemovedLinks by_shafts(const PruneInput& in, const PruneOptions& options, Shaft shaft,
                        Progress& progress) {
-    const Blockers blockers{NodeShapes(in.tree), find_convex_regions(in.scene, in.tree.surfaces)};
+    const Blockers blockers(in.scene, in.tree);
     const std::vector<LinkVisibility> visibility =
         classify_links(in.tree, in.links, blockers, {shaft, options.blocking_sides}, progress);
     const LinkIndex index(in.tree, in.links);

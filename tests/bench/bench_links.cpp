@@ -7,6 +7,7 @@
 #include "links/refine.h"
 #include "links/visibility.h"
 #include "meter.h"
+#include "pairs.h"
 #include "stages.h"
 
 namespace antiradiance::bench {
@@ -70,26 +71,6 @@ BENCHMARK_CAPTURE(link_creation, IMPLICIT, Visibility::kImplicit)
 BENCHMARK_CAPTURE(link_creation, EXPLICIT, Visibility::kExplicit)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-
-// Every + link of the implicit mesh, each with rays of its own.
-struct Pairs {
-    std::vector<RawLink> links;
-    std::vector<LinkedPair> pairs;
-};
-
-Pairs all_pairs(const LinkSet& set) {
-    Pairs all;
-    for (const Segment& s : set.segments) {
-        for (std::uint32_t l = s.begin; l < s.end; ++l) {
-            const Link& link = set.links[l];
-            if (link.form_factor < 0) continue;
-            const auto first = static_cast<std::uint32_t>(all.links.size());
-            all.links.push_back({s.receiver, link.source, link.form_factor, 0});
-            all.pairs.push_back({link.source, s.receiver, first, 1});
-        }
-    }
-    return all;
-}
 
 void visibility_rays(benchmark::State& state) {
     const Stages& room = stages(Visibility::kImplicit);

@@ -16,8 +16,7 @@ LinkVisibility visibility_of(const HandMadeLinks& made, NodeId source, NodeId re
                              Shaft shaft) {
     Progress progress;
     const LinkSet links = made.links();
-    const Blockers blockers{NodeShapes(made.tree),
-                            find_convex_regions(made.scene, made.tree.surfaces)};
+    const Blockers blockers(made.scene, made.tree);
     const auto visibility = classify_links(made.tree, links, blockers, {.shaft = shaft}, progress);
     for (const Segment& s : links.segments) {
         for (LinkId l = s.begin; l < s.end; ++l) {
