@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 
 #include "hierarchy/surfaces.h"
+#include "prune/vertex_weld.h"
 
 namespace antiradiance {
 
@@ -19,7 +19,6 @@ constexpr std::size_t kMostCorners = 32;     // of a region: every edge costs ti
 constexpr std::size_t kMostAtEdge = 8;       // polygons that are compared with one at its edge
 constexpr int kMostRounds = 16;  // strips join in the second; ragged meshes gain little after it
 
-using VertexId = std::int32_t;
 using ShapeId = std::int32_t;
 
 struct Shape {
@@ -56,31 +55,6 @@ float largest_extent(const Scene& scene) {
     }
     return scene.positions.empty() ? 0 : max_component(high - low);
 }
-
-// Corners at one place, to kPlanar, are one vertex, so that objects that touch share edges.
-class Vertices {
-public:
-    explicit Vertices(float cell) : cell_(cell) {}
-
-    VertexId add(const vec3& p) {
-        std::uint64_t key = 0;
-        for (int k = 0; k < 3; ++k) {
-            key =
-                (key << 21U) | (static_cast<std::uint64_t>(std::llround(p[k] / cell_)) & 0x1FFFFFU);
-        }
-        const auto [it, added] = known_.try_emplace(key, static_cast<VertexId>(positions_.size()));
-        if (added) positions_.push_back(p);
-        return it->second;
-    }
-    [[nodiscard]] const vec3& operator[](VertexId v) const {
-        return positions_[static_cast<std::size_t>(v)];
-    }
-
-private:
-    float cell_;
-    std::unordered_map<std::uint64_t, VertexId> known_;
-    std::vector<vec3> positions_;
-};
 
 class RegionMaker {
 public:
@@ -316,7 +290,7 @@ private:
     }
 
     float planar_;  // m
-    Vertices vertices_;
+    VertexWeld vertices_;
     std::vector<Shape> shapes_;
     std::vector<ShapeId> joined_to_;  // #shapes; itself: it is there
     std::vector<ShapeId> shape_of_;   // #triangles

@@ -60,4 +60,16 @@ std::vector<std::uint8_t> blocked_and_not_required(const PatchTree& tree, const 
                                                    const std::vector<LinkVisibility>& visibility,
                                                    Progress& progress);
 
+// In place of algorithm 3: 1 at the blocked links that may go without a change in balance. The
+// antiradiance of X holds the light of all S that reach it; the - link X -> R takes it back from R,
+// where S -> R brought it. So S -> R goes only if no such - link stays, and X -> R only if no such
+// S still reaches X and R; S, X and R with the patches above and below them, in one bin. What -
+// links do across the border of two bins is not seen, so that the balance is kept for the most
+// part. The largest such set, which is unique. No part of the paper: after algorithm 3 rooms get
+// darker, as - links that are blocked in part take back light that is no longer sent. #links.
+// Deterministic.
+std::vector<std::uint8_t> blocked_and_balanced(const PatchTree& tree, const LinkSet& links,
+                                               const std::vector<LinkVisibility>& visibility,
+                                               Progress& progress);
+
 }  // namespace antiradiance

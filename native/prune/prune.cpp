@@ -13,11 +13,14 @@ namespace antiradiance {
 
 namespace {
 
-RemovedLinks by_shafts(const PruneInput& in, const PruneOptions& options, Shaft shaft,
-                       Progress& progress) {
+std::vector<LinkVisibility> by_shafts(const PruneInput& in, const PruneOptions& options,
+                                      Shaft shaft, Progress& progress) {
     const Blockers blockers(in.scene, in.tree);
-    const std::vector<LinkVisibility> visibility =
-        classify_links(in.tree, in.links, blockers, {shaft, options.blocking_sides}, progress);
+    return classify_links(in.tree, in.links, blockers, {shaft, options.blocking_sides}, progress);
+}
+
+RemovedLinks algorithm_3(const PruneInput& in, const std::vector<LinkVisibility>& visibility,
+                         Progress& progress) {
     const LinkIndex index(in.tree, in.links);
     return blocked_and_not_required(in.tree, in.links, index, visibility, progress);
 }
@@ -27,12 +30,12 @@ RemovedLinks heuristic_1(const PruneInput& in, const PruneOptions& options, Prog
 }
 
 RemovedLinks heuristic_2(const PruneInput& in, const PruneOptions& options, Progress& progress) {
-    return by_shafts(in, options, Shaft::kFromCenter, progress);
+    return algorithm_3(in, by_shafts(in, options, Shaft::kFromCenter, progress), progress);
 }
 
 RemovedLinks heuristic_2_then_1(const PruneInput& in, const PruneOptions& options,
                                 Progress& progress) {
-    RemovedLinks removed = by_shafts(in, options, Shaft::kFromCenter, progress);
+    RemovedLinks removed = heuristic_2(in, options, progress);
     const RemovedLinks more =
         find_blocked_triples(in.tree, in.links, options.directions, {.gone = removed}, progress);
     for (std::size_t l = 0; l < removed.size(); ++l)
@@ -41,7 +44,11 @@ RemovedLinks heuristic_2_then_1(const PruneInput& in, const PruneOptions& option
 }
 
 RemovedLinks conservative(const PruneInput& in, const PruneOptions& options, Progress& progress) {
-    return by_shafts(in, options, Shaft::kFromCorners, progress);
+    const std::vector<LinkVisibility> visibility =
+        by_shafts(in, options, Shaft::kFromCorners, progress);
+    return options.conservative_keeps == ConservativeKeeps::kBalanced
+               ? blocked_and_balanced(in.tree, in.links, visibility, progress)
+               : algorithm_3(in, visibility, progress);
 }
 
 std::vector<LinkVisibility> by_rays(const PruneInput& in, const PruneOptions& options,
@@ -57,9 +64,7 @@ RemovedLinks oracle_1(const PruneInput& in, const PruneOptions& options, Progres
 }
 
 RemovedLinks oracle_2(const PruneInput& in, const PruneOptions& options, Progress& progress) {
-    const std::vector<LinkVisibility> visibility = by_rays(in, options, progress);
-    const LinkIndex index(in.tree, in.links);
-    return blocked_and_not_required(in.tree, in.links, index, visibility, progress);
+    return algorithm_3(in, by_rays(in, options, progress), progress);
 }
 
 constexpr PruneRule kRules[] = {

@@ -24,7 +24,7 @@ enum class PruneMethod {
     kHeuristic1,       // algorithm 1: sender, occluder and receiver in a line
     kHeuristic2,       // algorithms 2 and 3, reading "H2-b"
     kHeuristic2Then1,  // one after the other
-    kConservative,     // algorithms 2 and 3 with a shaft in place of a pyramid
+    kConservative,     // algorithm 2 with a shaft in place of a pyramid
     kOracle1,          // algorithm 1 with rays in place of its test of solid angles
     kOracle2,          // algorithm 3 after rays in place of algorithm 2
 };
@@ -35,11 +35,18 @@ enum class PruneDirections {
     kText,    // S -> R and O -> R, as section 4.2 says; S -> O in that bin or one that touches it
 };
 
+// Which of the links that the conservative test finds blocked stay all the same.
+enum class ConservativeKeeps {
+    kBalanced,    // those without whose partners the balance of light and antiradiance would change
+    kAlgorithm3,  // as after heuristic 2: more links go, and rooms get darker
+};
+
 struct PruneOptions {
     PruneMethod method = PruneMethod::kConservative;
     PruneDirections directions = PruneDirections::kStrict;  // of heuristic 1 and its oracle
     BlockingSides blocking_sides = BlockingSides::kAny;     // of - links; not for heuristic 1
-    int rays_per_link = 64;                                 // of the oracles, 1..
+    ConservativeKeeps conservative_keeps = ConservativeKeeps::kBalanced;
+    int rays_per_link = 64;  // of the oracles, 1..
 };
 
 struct PruneInput {

@@ -73,11 +73,16 @@ constexpr PruneOptions kHeuristic1Text{.method = PruneMethod::kHeuristic1,
                                        .directions = PruneDirections::kText};
 constexpr PruneOptions kHeuristic2{.method = PruneMethod::kHeuristic2};
 constexpr PruneOptions kConservative{.method = PruneMethod::kConservative};
+constexpr PruneOptions kConservativeAlgorithm3{
+    .method = PruneMethod::kConservative, .conservative_keeps = ConservativeKeeps::kAlgorithm3};
 BENCHMARK_CAPTURE(prune, HEURISTIC_1, kHeuristic1)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(prune, HEURISTIC_1_text, kHeuristic1Text)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(prune, HEURISTIC_2, kHeuristic2)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(prune, CONSERVATIVE_algorithm_3, kConservativeAlgorithm3)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(prune, CONSERVATIVE, kConservative)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "hand_made_links.h"
-#include "prune/heuristic_1.h"
 
 namespace antiradiance {
 namespace {
@@ -11,6 +10,11 @@ namespace {
 using test::HandMadeLinks;
 using test::holds_minus;
 using test::holds_plus;
+
+constexpr PruneOptions kHeuristic2{.method = PruneMethod::kHeuristic2};
+constexpr PruneOptions kShaftsAndAlgorithm3{.method = PruneMethod::kConservative,
+                                            .conservative_keeps = ConservativeKeeps::kAlgorithm3};
+constexpr PruneOptions kOracle2{.method = PruneMethod::kOracle2};
 
 LinkVisibility visibility_of(const HandMadeLinks& made, NodeId source, NodeId receiver,
                              Shaft shaft) {
@@ -55,8 +59,8 @@ TEST(Heuristic1, OfAStackOnlyTheFirstLinkIsLeft) {
 TEST(Heuristic2, OfAStackTheShortestLinksAreLeft) {
     // Rule 2 keeps the shortest link of every receiver; those between slabs carry nothing any more.
     const Stack stack;
-    for (const PruneMethod method : {PruneMethod::kHeuristic2, PruneMethod::kConservative}) {
-        const LinkSet left = stack.pruned(method);
+    for (const PruneOptions& options : {kHeuristic2, kShaftsAndAlgorithm3}) {
+        const LinkSet left = stack.pruned(options);
         EXPECT_EQ(left.links.size(), static_cast<std::size_t>(kSlabs));
         EXPECT_EQ(left.radiance_count, 1U);
         EXPECT_TRUE(holds_plus(left, stack.node("S"), stack.slab(1)));
@@ -164,8 +168,8 @@ TEST(Heuristic2, TheSurfaceOfThePatchCounts) {
     const NodeId part = made.part;
     made.raw.push_back({made.node("R"), part, -0.01F,
                         static_cast<std::uint16_t>(made.bin(made.node("S"), made.node("R")))});
-    for (const PruneMethod method : {PruneMethod::kHeuristic2, PruneMethod::kConservative})
-        EXPECT_FALSE(holds_plus(made.pruned(method), made.node("S"), made.node("R")));
+    for (const PruneOptions& options : {kHeuristic2, kShaftsAndAlgorithm3})
+        EXPECT_FALSE(holds_plus(made.pruned(options), made.node("S"), made.node("R")));
 }
 
 TEST(Heuristic2, LinksToPatchesAboveAndBelowTheReceiverAreEvidence) {
@@ -181,7 +185,7 @@ TEST(Heuristic2, LinksToPatchesAboveAndBelowTheReceiverAreEvidence) {
         made.plus(made.node("S"), above ? child : whole);
         made.minus(made.node("O"), above ? whole : child);
         ASSERT_EQ(made.links().bin_segments.back(), 2U);
-        const LinkSet left = made.pruned(PruneMethod::kConservative);
+        const LinkSet left = made.pruned(kShaftsAndAlgorithm3);
         EXPECT_EQ(left.radiance_count, 0U) << above;
         EXPECT_EQ(left.antiradiance_count, 1U) << above;
     }
@@ -213,9 +217,8 @@ TEST(Heuristic2, AntiradianceOfAPartialOcclusionStays) {
         EXPECT_EQ(visibility_of(made, made.node("S"), made.node("R"), shaft),
                   LinkVisibility::kPartial);
     }
-    for (const PruneMethod method :
-         {PruneMethod::kHeuristic2, PruneMethod::kConservative, PruneMethod::kOracle2}) {
-        const LinkSet left = made.pruned(method);
+    for (const PruneOptions& options : {kHeuristic2, kShaftsAndAlgorithm3, kOracle2}) {
+        const LinkSet left = made.pruned(options);
         EXPECT_EQ(left.links.size(), made.raw.size());
         EXPECT_TRUE(holds_minus(left, made.node("O"), made.node("R")));
     }
@@ -224,8 +227,8 @@ TEST(Heuristic2, AntiradianceOfAPartialOcclusionStays) {
 TEST(Heuristic2, WithoutThatPartialOcclusionItGoes) {
     PartlyHidden made;
     made.raw.erase(made.raw.begin() + 2);  // S -> R
-    for (const PruneMethod method : {PruneMethod::kHeuristic2, PruneMethod::kConservative})
-        EXPECT_FALSE(holds_minus(made.pruned(method), made.node("O"), made.node("R")));
+    for (const PruneOptions& options : {kHeuristic2, kShaftsAndAlgorithm3})
+        EXPECT_FALSE(holds_minus(made.pruned(options), made.node("O"), made.node("R")));
     PartlyHidden unlit;
     unlit.raw.erase(unlit.raw.begin());  // S -> O
     EXPECT_FALSE(
@@ -245,9 +248,7 @@ TEST(BlockingSides, OfASlabsAntiradianceOnlyFacingOnesCount) {
     made.plus(made.node("S"), made.node("R"));
     made.minus(made.node("Top"), made.node("R"));
     made.plus(made.node("Bottom"), made.node("R"));
-    for (const PruneMethod method :
-         {PruneMethod::kHeuristic2, PruneMethod::kConservative, PruneMethod::kOracle2}) {
-        PruneOptions options{.method = method};
+    for (PruneOptions options : {kHeuristic2, kShaftsAndAlgorithm3, kOracle2}) {
         EXPECT_EQ(made.pruned(options).antiradiance_count, 0U);
         options.blocking_sides = BlockingSides::kFacing;
         const LinkSet left = made.pruned(options);

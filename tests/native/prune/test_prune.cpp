@@ -88,7 +88,9 @@ struct Wrong {
     std::size_t seen = 0;  // by rays
 };
 Wrong removed_plus_links(const Linked& l) {
-    const RemovedLinks removed = l.removed({.method = PruneMethod::kConservative});
+    // Every blocked + link goes.
+    const RemovedLinks removed = l.removed({.method = PruneMethod::kConservative,
+                                            .conservative_keeps = ConservativeKeeps::kAlgorithm3});
     Wrong wrong;
     for (const Segment& s : l.links.segments) {
         for (LinkId i = s.begin; i < s.end; ++i) {
