@@ -46,8 +46,7 @@ public:
 
 private:
     [[nodiscard]] RegionId region_of(NodeId patch) const {
-        return regions_
-            .of_surface[static_cast<std::size_t>(tree_.surface[static_cast<std::size_t>(patch)])];
+        return region_of_[static_cast<std::size_t>(patch)];
     }
 
     void load_receiver(SegmentId row) {
@@ -118,12 +117,11 @@ private:
 
     // What has blocked a source often blocks the next, which is its neighbour: it goes first.
     bool is_blocked(NodeId source, RegionId own, bool facing) {
-        for (std::size_t i = 0; i < blockers_.size(); ++i) {
-            const Blocker& b = blockers_[i];
+        for (Blocker& b : blockers_) {
             if (b.region == own || (facing && !b.sends_back) || !centers_cross(b, source) ||
                 !blocks(b.region, source))
                 continue;
-            std::swap(blockers_[0], blockers_[i]);
+            std::swap(blockers_[0], b);
             return true;
         }
         return false;
