@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hand_made_links.h"
+#include "hierarchy/patch_materials.h"
 #include "support/linked_scene.h"
 #include "support/scenes.h"
 
@@ -89,13 +90,13 @@ TEST(DarkLinks, WhatOnlyAntiradianceReachesIsDark) {
 }
 
 TEST(DarkLinks, InALitRoomThereAreNone) {
-    const test::LinkedScene linked(test::floating_boxes(2), 0.8F,
-                                   {.link_threshold = 0.05F, .least_edge = 0.4F});
+    const Scene scene = test::floating_boxes(2);
+    const test::LinkedScene linked(scene, 0.8F, {.link_threshold = 0.05F, .least_edge = 0.4F});
     const LinkSet links = linked.sorted();
     Progress progress;
     const std::vector<vec3> grey(linked.tree.size(), vec3(0.5F));
-    const RemovedLinks removed =
-        find_dark_links(linked.tree, links, linked.tree.emission, grey, progress);
+    const std::vector<vec3> emission = average_materials(scene, linked.tree).emission;
+    const RemovedLinks removed = find_dark_links(linked.tree, links, emission, grey, progress);
     EXPECT_EQ(std::count(removed.begin(), removed.end(), 1), 0);
 }
 
