@@ -66,8 +66,8 @@ std::vector<std::uint8_t> blocked_and_not_required(const PatchTree& tree, const 
 // S still reaches X and R; S, X and R with the patches above and below them, in one bin. What -
 // links do across the border of two bins is not seen, so that the balance is kept for the most
 // part. The largest such set, which is unique. No part of the paper: after algorithm 3 rooms get
-// darker, as - links that are blocked in part take back light that is no longer sent. #links.
-// Deterministic.
+// darker, as - links that are blocked in part take back light that is no longer sent.
+// #links. Deterministic.
 std::vector<std::uint8_t> blocked_and_balanced(const PatchTree& tree, const LinkSet& links,
                                                const std::vector<LinkVisibility>& visibility,
                                                Progress& progress);
