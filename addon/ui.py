@@ -11,7 +11,8 @@ ENGINE = "ANTIRADIANCE"
 # Which panel shows which option; an option that no panel names shows up in the last one.
 PANEL_OPTIONS = {
     "solution": ("visibility", "direct_light", "direct_samples"),
-    "link_mesh": ("max_patch_size", "link_threshold", "direction_bins", "visibility_rays"),
+    "link_mesh": ("max_patch_size", "link_threshold", "direction_bins", "visibility_rays",
+                  "pruning", "pruning_directions"),
     "solver": ("solver", "iterations"),
     "display": ("display", "shooting_level", "shooting_visibility", "shooting_samples",
                 "interleave", "bin_map_size"),

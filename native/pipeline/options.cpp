@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "prune/prune.h"
 
 namespace antiradiance {
 
@@ -24,6 +25,13 @@ OptionAccess access_to() {
         return {[](const Options& o) -> OptionValue { return o.*Member; },
                 [](Options& o, const OptionValue& v) { o.*Member = std::get<Value>(v); }};
     }
+}
+
+std::vector<EnumItem> pruning_items() {
+    std::vector<EnumItem> items{{"NONE", "None", "Keep all links"}};
+    for (const PruneRule& rule : prune_rules())
+        items.push_back({rule.identifier, rule.label, rule.description});
+    return items;
 }
 
 std::vector<OptionInfo> make_schema() {
@@ -110,6 +118,26 @@ std::vector<OptionInfo> make_schema() {
                       .soft_min = 1,
                       .soft_max = 16,
                       .access = access_to<&Options::visibility_rays>()});
+    schema.push_back({.name = "pruning",
+                      .label = "Pruning",
+                      .tooltip =
+                          "Which links are removed because surfaces block them, when Visibility is "
+                          "Implicit; rays have done so when it is Explicit",
+                      .type = OptionType::kEnum,
+                      .items = pruning_items(),
+                      .access = access_to<&Options::pruning>()});
+    schema.push_back(
+        {.name = "pruning_directions",
+         .label = "Pruning Directions",
+         .tooltip = "What heuristic 1 takes for one direction",
+         .type = OptionType::kEnum,
+         .items = {{"STRICT", "Strict",
+                    "All three links between source, occluder and receiver lie in one direction "
+                    "bin, as the paper prints its algorithm"},
+                   {"TEXT", "As in the text",
+                    "The two links into the receiver lie in one bin, and the third in it or one "
+                    "that touches it: finds more, and errs more"}},
+         .access = access_to<&Options::pruning_directions>()});
     schema.push_back(
         {.name = "iterations",
          .label = "Iterations",

@@ -12,6 +12,7 @@
 
 #include "display/display_options.h"
 #include "links/link_options.h"
+#include "prune/prune_options.h"
 #include "solve/solve_options.h"
 
 namespace antiradiance {
@@ -19,11 +20,13 @@ namespace antiradiance {
 struct Options {
     Visibility visibility = Visibility::kExplicit;
     DirectLightMode direct_light = DirectLightMode::kExplicit;
-    int direction_bins = 128;      // 32..1024
-    int iterations = 0;            // 0: until the residual is below 1e-4
-    float link_threshold = 0.02F;  // form factor, 0.0005..0.5
-    float max_patch_size = 0;      // m, longest edge; 0: from the scene's size
-    int visibility_rays = 4;       // per link, 1..64
+    int direction_bins = 128;                  // 32..1024
+    int iterations = 0;                        // 0: until the residual is below 1e-4
+    float link_threshold = 0.02F;              // form factor, 0.0005..0.5
+    float max_patch_size = 0;                  // m, longest edge; 0: from the scene's size
+    int visibility_rays = 4;                   // per link, 1..64
+    PruneMethod pruning = PruneMethod::kNone;  // of links, in IMPLICIT
+    PruneDirections pruning_directions = PruneDirections::kStrict;  // of heuristic 1
     SolverChoice solver = SolverChoice::kAuto;
     DisplayMode display = DisplayMode::kFinalShooting;
     ShootingLevel shooting_level = ShootingLevel::kCut;

@@ -13,9 +13,14 @@ struct Report {
     std::size_t patches = 0;  // nodes of the hierarchy that are patches, leaves and inner ones
     std::size_t leaves = 0;
     struct Links {
-        std::size_t radiance = 0, antiradiance = 0, total = 0;  // directed links solved
+        std::size_t radiance = 0, antiradiance = 0, total = 0;  // directed links solved, pruned
         std::size_t bytes = 0;                                  // of the sorted link mesh
     } links;
+    struct Pruning {
+        std::string method;  // the option's item; NONE where it took no part
+        std::size_t removed_radiance = 0, removed_antiradiance = 0;  // links
+        double seconds = 0;
+    } pruning;
     struct Direct {
         std::size_t shadow_maps = 0;  // images; 0: shadow rays
         std::size_t bytes = 0;        // of the images

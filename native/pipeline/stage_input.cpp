@@ -76,6 +76,17 @@ bool same_model_input(const StageInput& was, const StageInput& is) {
            same(was.scene.lamps, is.scene.lamps, place);
 }
 
+bool prunes(const Options& options) {
+    return options.pruning != PruneMethod::kNone && options.visibility == Visibility::kImplicit;
+}
+
+bool same_pruning_input(const StageInput& was, const StageInput& is) {
+    const auto method = [](const Options& o) { return prunes(o) ? o.pruning : PruneMethod::kNone; };
+    return method(was.options) == method(is.options) &&
+           (method(is.options) == PruneMethod::kNone ||
+            was.options.pruning_directions == is.options.pruning_directions);
+}
+
 bool same_direct_light_input(const StageInput& was, const StageInput& is) {
     // What IMPLICIT takes from shadow rays: emissive meshes and area lamps.
     const bool all = is.options.direct_light != DirectLightMode::kImplicit;

@@ -17,7 +17,11 @@ struct StageInput {
     bool film_transparent = false;
 };
 
+// Whether links are pruned: EXPLICIT has tested each of them with rays.
+[[nodiscard]] bool prunes(const Options& options);
+
 [[nodiscard]] bool same_model_input(const StageInput& was, const StageInput& is);
+[[nodiscard]] bool same_pruning_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_direct_light_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_solve_input(const StageInput& was, const StageInput& is);
 

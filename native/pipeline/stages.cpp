@@ -39,13 +39,43 @@ void describe_model(const StageInput&, const StageResults& results, Report& repo
         if (!model.tree.is_cluster(static_cast<NodeId>(n))) ++report.patches;
     }
     report.leaves = model.tree.leaves.size();
-    report.links = {model.links.radiance_count, model.links.antiradiance_count,
-                    model.links.links.size(), model.links.bytes()};
     report.warnings.insert(report.warnings.end(), model.warnings.begin(), model.warnings.end());
 }
 
 void forget_model(StageResults& results) {
     results.model.reset();
+}
+
+void run_pruning(const StageInput& input, StageResults& results, Report::Timings&,
+                 Progress& progress) {
+    if (!prunes(input.options)) return;
+    const Model& model = *results.model;
+    progress.begin_stage("Pruning links", 0.4F, 0.45F);
+    results.pruned = prune_links(
+        {input.scene, model.tree, model.links, model.rays},
+        {.method = input.options.pruning, .directions = input.options.pruning_directions},
+        progress);
+}
+
+void describe_pruning(const StageInput& input, const StageResults& results, Report& report) {
+    const LinkSet& links = results.links();
+    report.links = {links.radiance_count, links.antiradiance_count, links.links.size(),
+                    links.bytes()};
+    report.pruning.method = item_of(input.options, "pruning");
+    if (results.pruned) {
+        report.pruning.removed_radiance = results.pruned->removed_radiance;
+        report.pruning.removed_antiradiance = results.pruned->removed_antiradiance;
+        report.pruning.seconds = results.pruned->seconds;
+    } else if (input.options.pruning != PruneMethod::kNone) {
+        report.pruning.method = "NONE";
+        report.warnings.push_back(
+            "Pruning changes nothing with Visibility set to Explicit, where rays test every link: "
+            "set Pruning to None, or Visibility to Implicit");
+    }
+}
+
+void forget_pruning(StageResults& results) {
+    results.pruned.reset();
 }
 
 void run_direct_light(const StageInput& input, StageResults& results, Report::Timings& timings,
@@ -82,7 +112,8 @@ void run_solve(const StageInput& input, StageResults& results, Report::Timings& 
         make_transport_input(input.scene, model.tree, results.leaf_direct, options.direct_light);
     SolveOptions solve;
     solve.iterations = options.iterations;
-    SolverRun run = solve_transport(options.solver, transport.problem(model), solve, progress);
+    SolverRun run =
+        solve_transport(options.solver, transport.problem(model, results.links()), solve, progress);
     Solution& solution = run.solution;
     if (!run.device.warning.empty()) results.solve_warnings.push_back(run.device.warning);
     if (!solution.converged && options.iterations == 0) {
@@ -126,9 +157,9 @@ void run_display(const StageInput& input, StageResults& results, Report::Timings
     progress.begin_stage("Display", 0.75F, 1);
     results.shown = results.display.make_picture(
         input.options.solver,
-        {input.scene, results.model->rays, results.model->tree, results.model->links, false,
-         *results.direct, results.leaf_direct, results.irradiance, results.radiance,
-         input.film_transparent},
+        {input.scene, results.model->rays, results.model->tree, results.links(),
+         results.pruned.has_value(), *results.direct, results.leaf_direct, results.irradiance,
+         results.radiance, input.film_transparent},
         input.options.resolved_display(), progress);
     timings.display = watch.lap();
 }
@@ -145,6 +176,7 @@ void forget_display(StageResults& results) {
 
 constexpr std::array kStages{
     Stage{"model", same_model_input, run_model, describe_model, forget_model},
+    Stage{"pruning", same_pruning_input, run_pruning, describe_pruning, forget_pruning},
     Stage{"direct_light", same_direct_light_input, run_direct_light, describe_direct_light,
           forget_direct_light},
     Stage{"solve", same_solve_input, run_solve, describe_solve, forget_solve},

@@ -16,12 +16,14 @@
 #include "pipeline/model.h"
 #include "pipeline/report.h"
 #include "pipeline/stage_input.h"
+#include "prune/prune.h"
 #include "solve/direct_light.h"
 
 namespace antiradiance {
 
 struct StageResults {
     std::optional<Model> model;
+    std::optional<PruneResult> pruned;  // without: all of the model's links take part
     std::optional<DirectLight> direct;
     std::vector<vec3> leaf_direct;  // #nodes, W/m2 of it on each leaf
     std::vector<vec3> irradiance;   // #nodes, W/m2 that links brought to each leaf
@@ -30,6 +32,8 @@ struct StageResults {
     std::vector<std::string> solve_warnings;
     ChosenDisplay display;  // for its compiled shaders
     DisplayRun shown;       // empty without a camera
+
+    [[nodiscard]] const LinkSet& links() const { return pruned ? pruned->links : model->links; }
 };
 
 class Stages {

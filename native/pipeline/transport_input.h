@@ -15,9 +15,12 @@ struct TransportInput {
                                // emission unless shadow rays carry it; of the exposed part
     std::vector<vec3> albedo;  // #nodes, reflectance times exposed share
 
-    // Borrows this and the model.
+    // Borrows this, the model and the links: the model's, or those that pruning left of them.
+    [[nodiscard]] TransportProblem problem(const Model& model, const LinkSet& links) const {
+        return {model.tree, links, source, albedo, model.row_scale};
+    }
     [[nodiscard]] TransportProblem problem(const Model& model) const {
-        return {model.tree, model.links, source, albedo, model.row_scale};
+        return problem(model, model.links);
     }
 };
 

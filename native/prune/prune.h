@@ -14,26 +14,10 @@
 #include "hierarchy/patch_tree.h"
 #include "links/link_set.h"
 #include "prune/link_visibility.h"
+#include "prune/prune_options.h"
 #include "scene/ray_scene.h"
 
 namespace antiradiance {
-
-// HEURISTIC_1 before HEURISTIC_2 does not exist: it removes the links in which the second one would
-// see what blocks the others.
-enum class PruneMethod {
-    kHeuristic1,       // algorithm 1: sender, occluder and receiver in a line
-    kHeuristic2,       // algorithms 2 and 3, reading "H2-b"
-    kHeuristic2Then1,  // one after the other
-    kConservative,     // algorithm 2 with a shaft in place of a pyramid
-    kOracle1,          // algorithm 1 with rays in place of its test of solid angles
-    kOracle2,          // algorithm 3 after rays in place of algorithm 2
-};
-
-// Heuristic 1 wants the links between sender S, occluder O and receiver R in one direction bin.
-enum class PruneDirections {
-    kStrict,  // all three, as algorithm 1 prints it with one set of bins
-    kText,    // S -> R and O -> R, as section 4.2 says; S -> O in that bin or one that touches it
-};
 
 // Which of the links that the conservative test finds blocked stay all the same.
 enum class ConservativeKeeps {
@@ -68,7 +52,7 @@ struct PruneRule {
     RemovedLinks (*find)(const PruneInput& input, const PruneOptions& options, Progress& progress);
 };
 
-// All of them, in the order of the methods.
+// All of them but kNone, in the order of the methods.
 std::span<const PruneRule> prune_rules();
 
 // The links that a rule removes, by their place in the set: for whoever compares rules.
@@ -86,6 +70,7 @@ struct PruneResult {
 };
 
 // Deterministic. Throws Cancelled.
+// Not for kNone.
 PruneResult prune_links(const PruneInput& input, const PruneOptions& options, Progress& progress);
 
 }  // namespace antiradiance

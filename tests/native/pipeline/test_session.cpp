@@ -114,13 +114,14 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     options.visibility = Visibility::kImplicit;
     const RenderResult result = render(test::office(), options);
     const nlohmann::json json = file.read();
-    EXPECT_EQ(keys(json), std::set<std::string>({"patches", "leaves", "links", "direct", "solve",
-                                                 "display", "stages", "timings_s",
+    EXPECT_EQ(keys(json), std::set<std::string>({"patches", "leaves", "links", "pruning", "direct",
+                                                 "solve", "display", "stages", "timings_s",
                                                  "peak_memory_bytes", "warnings", "error"}));
-    EXPECT_EQ(
-        json["stages"],
-        nlohmann::json(
-            {{"model", "run"}, {"direct_light", "run"}, {"solve", "run"}, {"display", "run"}}));
+    EXPECT_EQ(json["stages"], nlohmann::json({{"model", "run"},
+                                              {"pruning", "run"},
+                                              {"direct_light", "run"},
+                                              {"solve", "run"},
+                                              {"display", "run"}}));
     // direct, bytes and reason come on top of what was agreed on.
     EXPECT_EQ(keys(json["links"]),
               std::set<std::string>({"radiance", "antiradiance", "total", "bytes"}));

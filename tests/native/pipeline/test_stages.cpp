@@ -81,7 +81,8 @@ std::string ran(const Report& report) {
     return names;
 }
 
-const char* const kAll = "model direct_light solve display";
+const char* const kAll = "model pruning direct_light solve display";
+const char* const kFromPruning = "pruning direct_light solve display";
 const char* const kFromDirectLight = "direct_light solve display";
 const char* const kFromSolve = "solve display";
 const char* const kDisplay = "display";
@@ -223,6 +224,43 @@ INSTANTIATE_TEST_SUITE_P(DirectLight, Edits,
 TEST_P(Edits, RunWhatReadsThem) {
     for (const Edit& edit : edits())
         check(edit);
+}
+
+TEST(Stages, PruningKeepsTheLinkMeshThatItPrunes) {
+    Input input;
+    input.options.visibility = Visibility::kImplicit;
+    Session session;
+    const RenderResult whole = render(session, input);
+    EXPECT_EQ(whole.report.pruning.method, "NONE");
+    for (const PruneMethod method : {PruneMethod::kHeuristic2, PruneMethod::kConservative}) {
+        input.options.pruning = method;
+        const RenderResult pruned = render(session, input);
+        EXPECT_EQ(ran(pruned.report), kFromPruning);
+        const Report::Pruning& p = pruned.report.pruning;
+        EXPECT_GT(p.removed_antiradiance, 0U);
+        EXPECT_EQ(pruned.report.links.radiance + p.removed_radiance, whole.report.links.radiance);
+        EXPECT_EQ(pruned.report.links.antiradiance + p.removed_antiradiance,
+                  whole.report.links.antiradiance);
+        EXPECT_NE(pruned.picture.combined, whole.picture.combined);
+        EXPECT_EQ(ran(render(session, input).report), kDisplay);
+    }
+    input.options.pruning = PruneMethod::kNone;
+    const RenderResult again = render(session, input);
+    EXPECT_EQ(ran(again.report), kFromPruning);
+    expect_equal(again.picture, whole.picture);
+}
+
+TEST(Stages, PruningOfExplicitLinksIsLeftOutWithAWarning) {
+    Input input;
+    Session session;
+    const RenderResult plain = render(session, input);
+    input.options.pruning = PruneMethod::kConservative;
+    const RenderResult asked = render(session, input);
+    EXPECT_EQ(ran(asked.report), kDisplay);
+    EXPECT_EQ(asked.report.pruning.method, "NONE");
+    ASSERT_EQ(asked.report.warnings.size(), plain.report.warnings.size() + 1);
+    EXPECT_NE(asked.report.warnings.back().find("Pruning"), std::string::npos);
+    expect_equal(asked.picture, plain.picture);
 }
 
 TEST(Stages, ImplicitVisibilityKeepsItsLinksForFinalShooting) {
