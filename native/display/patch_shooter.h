@@ -23,7 +23,8 @@ struct Receiver {
     vec3 shading;        // unit, sets the cosine
     SurfaceId surface;   // kNone: on a side that no link reaches
     std::uint32_t turn;  // where its choice among a patch's points begins
-    float expected;      // luminance of about all light that it gets, W/m2
+    float expected;      // W/m2, luminance of about all light that its share of the
+                         // patches stands for
     float rays_owed;     // 0..1, for the light of weak patches so far
     vec3 irradiance{0};  // W/m2, the result
 };

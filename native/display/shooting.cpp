@@ -48,7 +48,9 @@ std::vector<Receiver> make_receivers(const ShootingInput& input,
         if (f.leaf != kNone) {
             const auto leaf = static_cast<std::size_t>(f.leaf);
             r.surface = input.tree.surface[leaf];
-            r.expected = luminance(input.leaf_light[leaf]);
+            // Interleaving multiplies the result by n^2.
+            const auto n = static_cast<float>(input.interleave);
+            r.expected = luminance(input.leaf_light[leaf]) / (n * n);
         }
         receivers.push_back(r);
     }

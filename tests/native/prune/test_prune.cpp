@@ -149,7 +149,7 @@ TEST(PruneRules, CompareInOrderWithTheStudy) {
 TEST(PruneRules, EachHasARowInTheOrderOfTheMethods) {
     std::set<std::string> identifiers;
     for (std::size_t i = 0; i < prune_rules().size(); ++i) {
-        EXPECT_EQ(static_cast<std::size_t>(prune_rules()[i].method), i);
+        EXPECT_EQ(static_cast<std::size_t>(prune_rules()[i].method), i + 1);  // after kNone
         identifiers.insert(prune_rules()[i].identifier);
     }
     EXPECT_EQ(identifiers,
