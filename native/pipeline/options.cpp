@@ -139,6 +139,13 @@ std::vector<OptionInfo> make_schema() {
                     "that touches it: finds more, and errs more"}},
          .access = access_to<&Options::pruning_directions>()});
     schema.push_back(
+        {.name = "evaluate_pruning",
+         .label = "Evaluate Pruning",
+         .tooltip = "Compare what each pruning rule removes with rays, and its solution with one "
+                    "whose links are tested with rays; slow. The table is in the report",
+         .type = OptionType::kBool,
+         .access = access_to<&Options::evaluate_pruning>()});
+    schema.push_back(
         {.name = "iterations",
          .label = "Iterations",
          .tooltip = "Passes over the links; 0 goes on until the light no longer changes, another "

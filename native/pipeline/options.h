@@ -27,6 +27,7 @@ struct Options {
     int visibility_rays = 4;                   // per link, 1..64
     PruneMethod pruning = PruneMethod::kNone;  // of links, in IMPLICIT
     PruneDirections pruning_directions = PruneDirections::kStrict;  // of heuristic 1
+    bool evaluate_pruning = false;  // of all rules, with each render
     SolverChoice solver = SolverChoice::kAuto;
     DisplayMode display = DisplayMode::kFinalShooting;
     ShootingLevel shooting_level = ShootingLevel::kCut;

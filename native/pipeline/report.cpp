@@ -3,12 +3,21 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/pruning_json.h"
+
 namespace antiradiance {
 
 std::string Report::to_json() const {
     auto stages_json = nlohmann::ordered_json::object();
     for (const auto& [name, what] : stages)
         stages_json[name] = what;
+    nlohmann::ordered_json pruning_json = {
+        {"method", pruning.method},
+        {"removed", pruning.removed_radiance + pruning.removed_antiradiance},
+        {"removed_radiance", pruning.removed_radiance},
+        {"removed_antiradiance", pruning.removed_antiradiance},
+        {"seconds", pruning.seconds}};
+    if (!pruning.evaluation.empty()) pruning_json["evaluation"] = json_of(pruning.evaluation);
     const nlohmann::ordered_json json = {
         {"patches", patches},
         {"leaves", leaves},
@@ -17,12 +26,7 @@ std::string Report::to_json() const {
           {"antiradiance", links.antiradiance},
           {"total", links.total},
           {"bytes", links.bytes}}},
-        {"pruning",
-         {{"method", pruning.method},
-          {"removed", pruning.removed_radiance + pruning.removed_antiradiance},
-          {"removed_radiance", pruning.removed_radiance},
-          {"removed_antiradiance", pruning.removed_antiradiance},
-          {"seconds", pruning.seconds}}},
+        {"pruning", pruning_json},
         {"direct", {{"shadow_maps", direct.shadow_maps}, {"bytes", direct.bytes}}},
         {"solve",
          {{"backend", solve.backend},

@@ -110,4 +110,10 @@ bool same_solve_input(const StageInput& was, const StageInput& is) {
            same(was.scene.lamps, is.scene.lamps, &Lamp::power);  // area lamps that emit along links
 }
 
+bool same_evaluation_input(const StageInput& was, const StageInput& is) {
+    return was.options.evaluate_pruning == is.options.evaluate_pruning &&
+           (!is.options.evaluate_pruning ||
+            was.options.pruning_directions == is.options.pruning_directions);
+}
+
 }  // namespace antiradiance

@@ -145,6 +145,21 @@ void forget_solve(StageResults& results) {
     results.solve_warnings = {};
 }
 
+// Apart from the solution that is shown: the rules are for IMPLICIT links, whatever that has.
+void run_evaluation(const StageInput& input, StageResults& results, Report::Timings&,
+                    Progress& progress) {
+    if (!input.options.evaluate_pruning) return;
+    results.pruning_table = evaluate_rules(input.scene, input.options, {}, progress);
+}
+
+void describe_evaluation(const StageInput&, const StageResults& results, Report& report) {
+    report.pruning.evaluation = results.pruning_table.rules;
+}
+
+void forget_evaluation(StageResults& results) {
+    results.pruning_table = {};
+}
+
 // A picture goes to whoever asked for it and is made anew each time.
 bool never_same(const StageInput&, const StageInput&) {
     return false;
@@ -180,6 +195,8 @@ constexpr std::array kStages{
     Stage{"direct_light", same_direct_light_input, run_direct_light, describe_direct_light,
           forget_direct_light},
     Stage{"solve", same_solve_input, run_solve, describe_solve, forget_solve},
+    Stage{"evaluation", same_evaluation_input, run_evaluation, describe_evaluation,
+          forget_evaluation},
     Stage{"display", never_same, run_display, describe_display, forget_display},
 };
 

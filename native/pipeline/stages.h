@@ -13,6 +13,7 @@
 #include "base/progress.h"
 #include "display/display.h"
 #include "pipeline/choose_display.h"
+#include "pipeline/evaluate_rules.h"
 #include "pipeline/model.h"
 #include "pipeline/report.h"
 #include "pipeline/stage_input.h"
@@ -30,8 +31,9 @@ struct StageResults {
     std::vector<vec3> radiance;     // #nodes, W/(m2 sr), L of Eq. 3
     Report::Solve solve;
     std::vector<std::string> solve_warnings;
-    ChosenDisplay display;  // for its compiled shaders
-    DisplayRun shown;       // empty without a camera
+    PruningTable pruning_table;  // empty: not asked for
+    ChosenDisplay display;       // for its compiled shaders
+    DisplayRun shown;            // empty without a camera
 
     [[nodiscard]] const LinkSet& links() const { return pruned ? pruned->links : model->links; }
 };

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "tools/difference_command.h"
+#include "tools/evaluate_command.h"
 #include "tools/render_command.h"
 
 namespace {
@@ -19,6 +20,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     antiradiance::add_render_command(app);
     antiradiance::add_difference_command(app);
+    antiradiance::add_evaluate_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

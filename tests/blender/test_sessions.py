@@ -3,7 +3,7 @@
 
 import pytest
 
-ALL = ["model", "pruning", "direct_light", "solve", "display"]
+ALL = ["model", "pruning", "direct_light", "solve", "evaluation", "display"]
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """build/bin/antiradiance from outside: report, picture, messages, exit codes."""
 
+import csv
 import importlib
 import json
 import signal
@@ -21,7 +22,7 @@ REPORT_KEYS = {
     "timings_s": {"sync", "hierarchy", "links", "visibility", "direct", "solve", "display",
                   "total"},
     "pruning": {"method", "removed", "removed_radiance", "removed_antiradiance", "seconds"},
-    "stages": {"model", "pruning", "direct_light", "solve", "display"},
+    "stages": {"model", "pruning", "direct_light", "solve", "evaluation", "display"},
     "peak_memory_bytes": None,
     "warnings": None,
     "error": None,
@@ -311,3 +312,49 @@ def test_interrupt_cancels(binary, room, tmp_path):
         _, errors = process.communicate(timeout=20)
     assert process.returncode == CANCELLED and errors == "cancelled\n"
     assert json.loads(report.read_text(encoding="utf-8"))["error"] == "cancelled"
+
+
+@pytest.fixture
+def divided_room(room):
+    """The room with a screen across it, as high as the room and nearly as wide."""
+    with room.open("a", encoding="utf-8") as file:
+        file.write("""o Screen
+usemtl white
+v 0.1 0 0.5
+v 0.9 0 0.5
+v 0.9 1 0.5
+v 0.1 1 0.5
+f -4 -3 -2 -1
+""")
+    return room
+
+
+def evaluate(tool, scene, kind):
+    result = tool("evaluate", scene, "--format", kind, "--max-patch-size", "0.5")
+    assert result.returncode == DONE, result.stderr
+    return result.stdout
+
+
+def test_evaluate_pruning(tool, divided_room):
+    """The three formats tell the same, and the columns of each rule add up."""
+    table = json.loads(evaluate(tool, divided_room, "JSON"))
+    assert {"HEURISTIC_1", "HEURISTIC_2", "HEURISTIC_2_THEN_1", "CONSERVATIVE"} <= set(
+        table["evaluation"])
+    assert table["evaluation"]["CONSERVATIVE"]["removed"] > 0
+    for name, row in table["evaluation"].items():
+        assert row["removed"] - row["incorrect"] == row["explicit"] - row["not_removed"], name
+        assert row["explicit"] == table["explicit"] <= table["links"], name
+        assert row["solution"]["converged"], name
+    rows = list(csv.DictReader(evaluate(tool, divided_room, "CSV").splitlines()))
+    assert [row["method"] for row in rows] == ["NONE", *table["evaluation"]]
+    for row in rows[1:]:
+        assert int(row["removed"]) == table["evaluation"][row["method"]]["removed"]
+        assert int(row["links"]) == table["links"]
+    text = evaluate(tool, divided_room, "TEXT").splitlines()
+    assert [line.split()[0] for line in text] == ["method", "NONE", *table["evaluation"]]
+
+
+def test_evaluate_needs_a_scene(tool, tmp_path):
+    result = tool("evaluate", tmp_path / "missing.obj")
+    assert result.returncode == FAILED
+    assert "missing.obj" in result.stderr

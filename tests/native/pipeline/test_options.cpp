@@ -48,12 +48,12 @@ TEST(Options, SchemaHoldsEveryOptionOnce) {
         EXPECT_NE(o.tooltip.back(), '.') << o.name << ": Blender adds the full stop";
         EXPECT_EQ(o.type == OptionType::kEnum, !o.items.empty()) << o.name;
     }
-    EXPECT_EQ(names,
-              std::set<std::string>(
-                  {"visibility", "direct_light", "direction_bins", "iterations", "link_threshold",
-                   "max_patch_size", "visibility_rays", "pruning", "pruning_directions", "solver",
-                   "display", "shooting_level", "shooting_visibility", "shooting_samples",
-                   "bin_map_size", "interleave", "direct_samples", "report_path"}));
+    EXPECT_EQ(names, std::set<std::string>(
+                         {"visibility", "direct_light", "direction_bins", "iterations",
+                          "link_threshold", "max_patch_size", "visibility_rays", "pruning",
+                          "pruning_directions", "evaluate_pruning", "solver", "display",
+                          "shooting_level", "shooting_visibility", "shooting_samples",
+                          "bin_map_size", "interleave", "direct_samples", "report_path"}));
 }
 
 TEST(Options, DefaultsLieWithinTheirLimits) {

@@ -121,6 +121,7 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
                                               {"pruning", "run"},
                                               {"direct_light", "run"},
                                               {"solve", "run"},
+                                              {"evaluation", "run"},
                                               {"display", "run"}}));
     // direct, bytes and reason come on top of what was agreed on.
     EXPECT_EQ(keys(json["links"]),

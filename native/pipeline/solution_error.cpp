@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/solution_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "links/build_link_set.h"
+#include "links/visibility.h"
+#include "pipeline/choose_solver.h"
+#include "solve/direct_light.h"
+
+namespace antiradiance {
+
+namespace {
+
+constexpr double kClip = 4;  // times the reference's median, as for pictures
+
+// The + links of a mesh, each tested with rays.
+LinkSet explicit_links(const Model& implicit, int rays_per_link, Progress& progress) {
+    std::vector<RawLink> links;
+    std::vector<LinkedPair> pairs;
+    links.reserve(implicit.links.radiance_count);
+    pairs.reserve(implicit.links.radiance_count);
+    for (int b = 0; b < implicit.links.bins.count(); ++b) {
+        const auto bin = static_cast<std::size_t>(b);
+        for (std::uint32_t i = implicit.links.bin_segments[bin];
+             i < implicit.links.bin_segments[bin + 1]; ++i) {
+            const Segment& s = implicit.links.segments[i];
+            for (std::uint32_t l = s.begin; l < s.end; ++l) {
+                const Link& link = implicit.links.links[l];
+                if (link.form_factor < 0) continue;
+                pairs.push_back(
+                    {link.source, s.receiver, static_cast<std::uint32_t>(links.size()), 1});
+                links.push_back(
+                    {s.receiver, link.source, link.form_factor, static_cast<std::uint16_t>(b)});
+            }
+        }
+    }
+    apply_ray_visibility(implicit.tree, implicit.rays, rays_per_link, pairs, links, progress);
+    return build_link_set(implicit.tree, implicit.links.bins, links, progress);
+}
+
+struct LeafValue {
+    double area;
+    double test, reference;
+};
+
+// Area-weighted median of the reference.
+double median_of(std::vector<LeafValue> values) {
+    std::sort(values.begin(), values.end(),
+              [](const LeafValue& a, const LeafValue& b) { return a.reference < b.reference; });
+    double half = 0;
+    for (const LeafValue& v : values)
+        half += v.area / 2;
+    for (const LeafValue& v : values) {
+        half -= v.area;
+        if (half <= 0) return v.reference;
+    }
+    return 0;
+}
+
+void measure(const PatchTree& tree, std::span<const vec3> direct, std::span<const vec3> test,
+             std::span<const vec3> reference, SolutionError& error) {
+    std::vector<LeafValue> values;
+    for (const NodeId leaf : tree.leaves) {
+        const auto n = static_cast<std::size_t>(leaf);
+        const double area = static_cast<double>(tree.area[n]) * tree.exposed[n];
+        if (tree.emits_only(leaf) || area <= 0) continue;
+        for (int k = 0; k < 3; ++k)
+            values.push_back({area, direct[n][k] + test[n][k], direct[n][k] + reference[n][k]});
+    }
+    const double limit = kClip * median_of(values);
+    double area = 0;
+    double squares = 0;
+    double leak = 0;
+    double test_sum = 0;
+    double reference_sum = 0;
+    for (const LeafValue& v : values) {
+        const double a = std::min(v.test, limit);
+        const double b = std::min(v.reference, limit);
+        area += v.area;
+        squares += v.area * (a - b) * (a - b);
+        leak = std::max(leak, a - b);
+        test_sum += v.area * a;
+        reference_sum += v.area * b;
+    }
+    if (reference_sum <= 0) return;
+    error.relative_rms = std::sqrt(squares / area) / (reference_sum / area);
+    error.bias = test_sum / reference_sum - 1;
+    error.largest_leak = leak / (reference_sum / area);
+}
+
+float least_component(std::span<const vec3> radiance) {
+    float least = 0;
+    for (const vec3& l : radiance)
+        least = std::min({least, l.x, l.y, l.z});
+    return least;
+}
+
+}  // namespace
+
+ReferenceSolution::ReferenceSolution(const Scene& scene, const Options& options, const Model& model,
+                                     int rays_per_link, Progress& progress)
+    : options_(options), model_(model) {
+    const DirectLight light(scene, model.rays, options.direct_light, progress);
+    direct_ = light.leaf_irradiance(model.tree, progress);
+    input_ = make_transport_input(scene, model.tree, direct_, options.direct_light);
+    solution_ = solve(explicit_links(model, rays_per_link, progress), progress);
+}
+
+Solution ReferenceSolution::solve(const LinkSet& links, Progress& progress) const {
+    SolveOptions solve;
+    solve.iterations = options_.iterations;
+    return solve_transport(options_.solver, input_.problem(model_, links), solve, progress)
+        .solution;
+}
+
+SolutionError ReferenceSolution::error_of(const LinkSet& links, Progress& progress) const {
+    const Solution test = solve(links, progress);
+    SolutionError error;
+    measure(model_.tree, direct_, test.irradiance, solution_.irradiance, error);
+    error.converged = test.converged && solution_.converged;
+    error.least_radiance =
+        std::min(least_component(test.radiance), least_component(solution_.radiance));
+    return error;
+}
+
+}  // namespace antiradiance

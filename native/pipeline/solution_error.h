@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far solutions over several link sets of one mesh lie from operator G's on the same + links:
+// what implicit visibility and pruning cost, apart from all errors of meshing.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/progress.h"
+#include "pipeline/model.h"
+#include "pipeline/options.h"
+#include "pipeline/transport_input.h"
+#include "scene/scene.h"
+#include "solve/solver.h"
+
+namespace antiradiance {
+
+// Of the irradiance (direct and indirect) over all leaves, weighted by area and clipped at four
+// times the reference's median.
+struct SolutionError {
+    double relative_rms = 0;   // rms(A - B) / mean(B)
+    double bias = 0;           // mean(A) / mean(B) - 1
+    double largest_leak = 0;   // max(A - B) / mean(B): light where there should be none
+    bool converged = false;    // both solutions
+    float least_radiance = 0;  // W/(m2 sr), of both solutions
+};
+
+class ReferenceSolution {
+public:
+    // model: of IMPLICIT. Every + link is weighted by `rays_per_link` rays, and no - link takes
+    // part. Borrows the model. Throws what the solver throws.
+    ReferenceSolution(const Scene& scene, const Options& options, const Model& model,
+                      int rays_per_link, Progress& progress);
+
+    // links: the model's, or a part of them.
+    [[nodiscard]] SolutionError error_of(const LinkSet& links, Progress& progress) const;
+
+private:
+    [[nodiscard]] Solution solve(const LinkSet& links, Progress& progress) const;
+
+    Options options_;
+    const Model& model_;
+    std::vector<vec3> direct_;  // #nodes, W/m2
+    TransportInput input_;
+    Solution solution_;
+};
+
+}  // namespace antiradiance
