@@ -15,31 +15,6 @@ namespace {
 
 constexpr double kClip = 4;  // times the reference's median, as for pictures
 
-// The + links of a mesh, each tested with rays.
-LinkSet explicit_links(const Model& implicit, int rays_per_link, Progress& progress) {
-    std::vector<RawLink> links;
-    std::vector<LinkedPair> pairs;
-    links.reserve(implicit.links.radiance_count);
-    pairs.reserve(implicit.links.radiance_count);
-    for (int b = 0; b < implicit.links.bins.count(); ++b) {
-        const auto bin = static_cast<std::size_t>(b);
-        for (std::uint32_t i = implicit.links.bin_segments[bin];
-             i < implicit.links.bin_segments[bin + 1]; ++i) {
-            const Segment& s = implicit.links.segments[i];
-            for (std::uint32_t l = s.begin; l < s.end; ++l) {
-                const Link& link = implicit.links.links[l];
-                if (link.form_factor < 0) continue;
-                pairs.push_back(
-                    {link.source, s.receiver, static_cast<std::uint32_t>(links.size()), 1});
-                links.push_back(
-                    {s.receiver, link.source, link.form_factor, static_cast<std::uint16_t>(b)});
-            }
-        }
-    }
-    apply_ray_visibility(implicit.tree, implicit.rays, rays_per_link, pairs, links, progress);
-    return build_link_set(implicit.tree, implicit.links.bins, links, progress);
-}
-
 struct LeafValue {
     double area;
     double test, reference;
@@ -98,6 +73,30 @@ float least_component(std::span<const vec3> radiance) {
 }
 
 }  // namespace
+
+LinkSet explicit_links(const Model& implicit, int rays_per_link, Progress& progress) {
+    std::vector<RawLink> links;
+    std::vector<LinkedPair> pairs;
+    links.reserve(implicit.links.radiance_count);
+    pairs.reserve(implicit.links.radiance_count);
+    for (int b = 0; b < implicit.links.bins.count(); ++b) {
+        const auto bin = static_cast<std::size_t>(b);
+        for (std::uint32_t i = implicit.links.bin_segments[bin];
+             i < implicit.links.bin_segments[bin + 1]; ++i) {
+            const Segment& s = implicit.links.segments[i];
+            for (std::uint32_t l = s.begin; l < s.end; ++l) {
+                const Link& link = implicit.links.links[l];
+                if (link.form_factor < 0) continue;
+                pairs.push_back(
+                    {link.source, s.receiver, static_cast<std::uint32_t>(links.size()), 1});
+                links.push_back(
+                    {s.receiver, link.source, link.form_factor, static_cast<std::uint16_t>(b)});
+            }
+        }
+    }
+    apply_ray_visibility(implicit.tree, implicit.rays, rays_per_link, pairs, links, progress);
+    return build_link_set(implicit.tree, implicit.links.bins, links, progress);
+}
 
 ReferenceSolution::ReferenceSolution(const Scene& scene, const Options& options, const Model& model,
                                      int rays_per_link, Progress& progress)

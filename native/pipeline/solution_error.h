@@ -25,6 +25,9 @@ struct SolutionError {
     float least_radiance = 0;  // W/(m2 sr), of both solutions
 };
 
+// The + links of an IMPLICIT model, each weighted by `rays_per_link` rays; no - links.
+[[nodiscard]] LinkSet explicit_links(const Model& implicit, int rays_per_link, Progress& progress);
+
 class ReferenceSolution {
 public:
     // model: of IMPLICIT. Every + link is weighted by `rays_per_link` rays, and no - link takes

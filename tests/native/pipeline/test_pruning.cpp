@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "links/build_link_set.h"
-#include "links/visibility.h"
 #include "pipeline/lit_scene.h"
+#include "pipeline/solution_error.h"
 #include "prune/dark_links.h"
 #include "prune/prune.h"
 #include "support/scenes.h"
@@ -19,29 +18,6 @@ Options implicit_options(float patch_size) {
     options.visibility = Visibility::kImplicit;
     options.max_patch_size = patch_size;
     return options;
-}
-
-// The same + links by rays, without - links.
-LinkSet ray_tested(const Model& model) {
-    const LinkSet& set = model.links;
-    std::vector<RawLink> links;
-    std::vector<LinkedPair> pairs;
-    for (std::size_t b = 0; b + 1 < set.bin_segments.size(); ++b) {
-        for (std::uint32_t i = set.bin_segments[b]; i < set.bin_segments[b + 1]; ++i) {
-            const Segment& s = set.segments[i];
-            for (std::uint32_t l = s.begin; l < s.end; ++l) {
-                const Link& link = set.links[l];
-                if (link.form_factor < 0) continue;
-                const auto first = static_cast<std::uint32_t>(links.size());
-                pairs.push_back({link.source, s.receiver, first, 1});
-                links.push_back(
-                    {s.receiver, link.source, link.form_factor, static_cast<std::uint16_t>(b)});
-            }
-        }
-    }
-    Progress progress;
-    apply_ray_visibility(model.tree, model.rays, 16, pairs, links, progress);
-    return build_link_set(model.tree, set.bins, links, progress);
 }
 
 struct Pruned : test::LitScene {
@@ -84,7 +60,8 @@ TEST(Pruning, ConservativeAddsNoErrorToSpeakOf) {
           Case{"boxes", test::floating_boxes(2), 0.4F, 0.005}}) {
         SCOPED_TRACE(c.name);
         const Pruned lit(c.scene, implicit_options(c.patch_size));
-        const std::vector<vec3> expected = lit.irradiance(ray_tested(lit.model));
+        Progress progress;
+        const std::vector<vec3> expected = lit.irradiance(explicit_links(lit.model, 16, progress));
         const PruneResult pruned = lit.prune({.method = PruneMethod::kConservative});
         const auto gone =
             static_cast<double>(pruned.removed_radiance + pruned.removed_antiradiance);
