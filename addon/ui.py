@@ -12,7 +12,8 @@ ENGINE = "ANTIRADIANCE"
 PANEL_OPTIONS = {
     "solution": ("visibility", "direct_light", "direct_samples"),
     "link_mesh": ("max_patch_size", "link_threshold", "direction_bins", "visibility_rays",
-                  "pruning", "pruning_directions", "evaluate_pruning"),
+                  "ray_budget", "pruning", "pruning_directions", "remove_dark_links",
+                  "evaluate_pruning"),
     "solver": ("solver", "iterations"),
     "display": ("display", "shooting_level", "shooting_visibility", "shooting_samples",
                 "interleave", "bin_map_size"),

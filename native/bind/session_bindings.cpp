@@ -163,17 +163,31 @@ py::dict render(Session& session, const Scene& scene, const py::dict& option_val
     return stopped ? py::dict("cancelled"_a = true) : to_dict(result);
 }
 
-py::dict visibility_error(const Scene& scene, const py::dict& option_values, int rays_per_link) {
-    const Options options = to_options(option_values);
-    VisibilityError error;
+py::dict to_dict(const VisibilityError& error) {
+    return py::dict("relative_rms"_a = error.relative_rms, "bias"_a = error.bias,
+                    "largest_leak"_a = error.largest_leak, "converged"_a = error.converged,
+                    "least_radiance"_a = error.least_radiance, "leaves"_a = error.leaves,
+                    "links"_a = error.links, "rays"_a = error.rays, "seconds"_a = error.seconds);
+}
+
+py::list visibility_errors(const Scene& scene, const std::vector<py::dict>& option_values,
+                           int reference_rays, bool graded, bool normalised) {
+    std::vector<Options> ways;
+    for (const py::dict& values : option_values) {
+        ways.push_back(to_options(values));
+    }
+    std::vector<VisibilityError> errors;
     {
         const py::gil_scoped_release no_gil;
         Progress progress;
-        error = compare_visibility(scene, options, rays_per_link, progress);
+        errors = compare_visibility(
+            scene, ways, {{.per_pair = reference_rays, .graded = graded}, normalised}, progress);
     }
-    return py::dict("relative_rms"_a = error.relative_rms, "bias"_a = error.bias,
-                    "converged"_a = error.converged, "least_radiance"_a = error.least_radiance,
-                    "leaves"_a = error.leaves, "links"_a = error.links);
+    py::list result;
+    for (const VisibilityError& error : errors) {
+        result.append(to_dict(error));
+    }
+    return result;
 }
 
 }  // namespace
@@ -188,11 +202,12 @@ void bind_session(py::module_& module) {
              "Returns a dict: cancelled; unless it is true also combined (h,w,4) f32 linear "
              "Rec.709, premultiplied, row 0 below; depth (h,w) f32, m; normal (h,w,3) f32, world "
              "space; report, JSON; warnings, list of str. Raises SceneError");
-    module.def(
-        "compare_visibility", &visibility_error, "scene"_a, "options"_a, "rays_per_link"_a = 16,
-        "The error of antiradiance against ray-tested links on the same link mesh: a dict of "
-        "relative_rms, bias (irradiance over all leaves), converged, least_radiance, leaves, "
-        "links");
+    module.def("compare_visibility", &visibility_errors, "scene"_a, "options"_a,
+               "reference_rays"_a = 16, "graded"_a = false, "normalised"_a = false,
+               "Solutions that differ in `visibility` and its rays, options being a list of dicts, "
+               "against ray-tested links on the same link mesh: a list of dicts of relative_rms, "
+               "bias, largest_leak (irradiance over all leaves), converged, least_radiance, "
+               "leaves, links, rays, seconds (visibility and solution)");
     module.def("write_failure_report", &write_failure_report, "path"_a, "error"_a, "warnings"_a,
                "sync_seconds"_a,
                "Writes the JSON report of a render that failed before the core saw it");

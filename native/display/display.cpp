@@ -66,8 +66,8 @@ SourceLists find_sources(const DisplayInput& input, const DisplayOptions& option
     const ShootingLevel level = options.shooting_level;
     CutRule rule;
     rule.fronts_only = options.shooting_visibility == ShootingVisibility::kRays;
-    if (input.links_removed)
-        return linked_sources(input.tree, input.links, buffer, groups, level, rule, progress);
+    if (input.linked)
+        return linked_sources(input.tree, *input.linked, buffer, groups, level, rule, progress);
     if (level == ShootingLevel::kCut) return cut_sources(input.tree, groups, rule, progress);
     return all_sources(input.tree, level, groups.groups.size());
 }
@@ -97,7 +97,7 @@ std::vector<vec3> shoot_interleaved(const DisplayInput& input, const GBuffer& bu
 
 std::vector<vec3> shoot_at(const DisplayInput& input, const DisplayOptions& options,
                            const GBuffer& buffer, DisplayBackend& backend, Progress& progress) {
-    const FragmentGroups groups = input.links_removed
+    const FragmentGroups groups = input.linked
                                       ? receiver_groups(buffer)
                                       : tile_groups(buffer, eye_of(input.scene.camera),
                                                     std::max(kTileSize, options.interleave));
@@ -134,7 +134,7 @@ std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOption
                                   const GBuffer& buffer, DisplayBackend& backend,
                                   Progress& progress) {
     // Links are cut for each leaf by itself.
-    if (input.links_removed) return shoot_at(input, options, buffer, backend, progress);
+    if (input.linked) return shoot_at(input, options, buffer, backend, progress);
     const SharedReceivers shared = share_receivers(input.tree, buffer);
     return shared.spread(shoot_at(input, options, shared.receivers, backend, progress));
 }
@@ -184,7 +184,7 @@ Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
                      DisplayBackend& backend, Progress& progress) {
     const Mode& mode = find_mode(options.mode);
     // Links are cut for each leaf by itself.
-    const bool by_leaf = mode.by_leaf || input.links_removed;
+    const bool by_leaf = mode.by_leaf || input.linked != nullptr;
     GBuffer buffer = make_gbuffer(
         {input.scene, input.rays, input.tree, input.direct, input.leaf_direct, input.irradiance,
          by_leaf, input.film_transparent, input.samples_per_axis, options.direct_samples},

@@ -28,8 +28,8 @@ struct DisplayInput {
     const Scene& scene;  // has a camera
     const RayScene& rays;
     const PatchTree& tree;
-    const LinkSet& links;
-    bool links_removed;         // a fragment is lit by what is still linked to its leaf only
+    const LinkSet& links;       // of the solution
+    const LinkSet* linked;      // a fragment is lit by what these link to its leaf; null: by all
     const DirectLight& direct;  // evaluated per pixel
     std::span<const vec3> leaf_direct;  // #nodes, W/m2 of it on each leaf
     std::span<const vec3> irradiance;   // #nodes, W/m2 that links brought to each leaf

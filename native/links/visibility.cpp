@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -17,17 +18,19 @@ constexpr int kFacingTries = 4;  // to find members of two clusters that face ea
 // other count, as the form factor has no part of the others.
 class PairVisibility {
 public:
-    PairVisibility(const PatchTree& tree, const RayScene& rays, int rays_per_pair)
-        : sampler_(tree), rays_(rays), count_(static_cast<std::uint32_t>(rays_per_pair)) {}
+    PairVisibility(const PatchTree& tree, const RayScene& rays) : sampler_(tree), rays_(rays) {}
 
-    [[nodiscard]] float operator()(NodeId a, NodeId b) const {
+    [[nodiscard]] float operator()(const TestedPair& pair) const {
+        // Whoever asks, for one way or the other, gets the same answer.
+        const auto [a, b] = std::minmax(pair.a, pair.b);
+        const auto count = static_cast<std::uint32_t>(pair.rays);
         const std::uint32_t seed =
             hash_combine(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
         std::uint32_t facing = 0;
         std::uint32_t free = 0;
-        for (std::uint32_t i = 0; i < count_; ++i) {
+        for (std::uint32_t i = 0; i < count; ++i) {
             for (std::uint32_t attempt = 0; attempt < kFacingTries; ++attempt) {
-                const std::uint32_t index = i + attempt * count_;
+                const std::uint32_t index = i + attempt * count;
                 const auto p = sampler_.sample(a, r2_sample(index, seed));
                 const auto q = sampler_.sample(b, r2_sample(index, seed ^ 0x5bd1e995U));
                 const vec3 d = q.point - p.point;
@@ -45,8 +48,19 @@ public:
 private:
     SurfaceSampler sampler_;
     const RayScene& rays_;
-    std::uint32_t count_;
 };
+
+// Shares of the mean transfer that part the grades, and rays of each grade.
+constexpr double kFewBelow = 0.5;
+constexpr double kManyAbove = 4;
+constexpr double kFewRays = 0.25;
+constexpr double kManyRays = 2.25;
+constexpr double kEmitterRays = 4;
+
+bool emits(const PatchTree& tree, NodeId node) {
+    const SurfaceId s = tree.surface[static_cast<std::size_t>(node)];
+    return s != kNone && tree.surfaces[static_cast<std::size_t>(s)].emits;
+}
 
 }  // namespace
 
@@ -96,19 +110,74 @@ vec3 SurfaceSampler::exposed_point(NodeId leaf, const vec2& u) const {
     return tree_.patch_point(leaf, (cell + inside) * 0.25F);
 }
 
-void apply_ray_visibility(const PatchTree& tree, const RayScene& rays, int rays_per_pair,
-                          std::span<const LinkedPair> pairs, std::span<RawLink> links,
-                          Progress& progress) {
-    const PairVisibility visibility(tree, rays, rays_per_pair);
+double link_transfer(const PatchTree& tree, NodeId source, NodeId receiver, float form_factor) {
+    constexpr double kSeen = 0.25;
+    const auto area = [&](NodeId n) {
+        return static_cast<double>(tree.area[static_cast<std::size_t>(n)]) *
+               (tree.is_cluster(n) ? kSeen : 1.0);
+    };
+    // A cluster's intensity stands for its area as well; see Link.
+    const double sent = tree.is_cluster(source) ? area(source) : 1.0;
+    return std::abs(static_cast<double>(form_factor)) * sent * area(receiver);
+}
+
+std::size_t count_rays(const PatchTree& tree, const VisibilityRays& rays,
+                       std::span<TestedPair> pairs) {
+    double sum = 0;
+    std::size_t carrying = 0;
+    for (const TestedPair& p : pairs) {
+        sum += p.transfer;
+        if (p.transfer > 0) ++carrying;
+    }
+    const double mean = carrying ? sum / static_cast<double>(carrying) : 0.0;
+    const auto grade = [&](const TestedPair& p) {
+        if (!rays.graded) return 1.0;
+        if (rays.emitters_shine && (emits(tree, p.a) || emits(tree, p.b))) return kEmitterRays;
+        return p.transfer < kFewBelow * mean    ? kFewRays
+               : p.transfer < kManyAbove * mean ? 1.0
+                                                : kManyRays;
+    };
+    std::size_t total = 0;
+    for (TestedPair& p : pairs) {
+        p.rays = p.transfer > 0 ? std::max(1, static_cast<int>(grade(p) * rays.per_pair + 0.5)) : 0;
+        total += static_cast<std::size_t>(p.rays);
+    }
+    return total;
+}
+
+std::vector<float> trace_pairs(const PatchTree& tree, const RayScene& scene,
+                               std::span<const TestedPair> pairs, Progress& progress) {
+    const PairVisibility visibility(tree, scene);
+    std::vector<float> shares(pairs.size());
     parallel_for_blocks(pairs.size(), 1024, progress, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const LinkedPair& p = pairs[i];
-            const float v = visibility(p.a, p.b);
-            for (RawLink& l : links.subspan(p.first, p.count))
-                l.form_factor *= v;
-        }
+        std::transform(pairs.begin() + static_cast<std::ptrdiff_t>(begin),
+                       pairs.begin() + static_cast<std::ptrdiff_t>(end),
+                       shares.begin() + static_cast<std::ptrdiff_t>(begin), visibility);
         progress.check();
     });
+    return shares;
+}
+
+std::size_t apply_ray_visibility(const PatchTree& tree, const RayScene& scene,
+                                 const VisibilityRays& rays, std::span<const LinkedPair> pairs,
+                                 std::span<RawLink> links, Progress& progress) {
+    std::vector<TestedPair> tested;
+    tested.reserve(pairs.size());
+    for (const LinkedPair& p : pairs) {
+        double to_a = 0;
+        double to_b = 0;
+        for (const RawLink& l : links.subspan(p.first, p.count))
+            (l.receiver == p.a ? to_a : to_b) +=
+                link_transfer(tree, l.source, l.receiver, l.form_factor);
+        tested.push_back({p.a, p.b, std::max(to_a, to_b)});
+    }
+    const std::size_t count = count_rays(tree, rays, tested);
+    const std::vector<float> visibility = trace_pairs(tree, scene, tested, progress);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        for (RawLink& l : links.subspan(pairs[i].first, pairs[i].count))
+            l.form_factor *= visibility[i];
+    }
+    return count;
 }
 
 }  // namespace antiradiance

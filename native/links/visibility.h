@@ -32,11 +32,44 @@ private:
     std::vector<double> area_;              // #leaves + 1: exposed, weighted area of all before
 };
 
-// Multiplies the form factors of the pairs' + links by the share of `rays_per_pair` segments
-// between the two ends that nothing blocks; an occluded link gets 0. Pairs name nodes of `tree`.
-// Deterministic.
-void apply_ray_visibility(const PatchTree& tree, const RayScene& rays, int rays_per_pair,
-                          std::span<const LinkedPair> pairs, std::span<RawLink> links,
-                          Progress& progress);
+// Rays that test a pair of nodes.
+struct VisibilityRays {
+    int per_pair = 4;
+    // By what the links of the pair can carry, relative to the mean of all pairs: a quarter of
+    // per_pair below .5, per_pair below 4, 9/4 of it above; the few pairs that carry most of the
+    // light get most of the rays. Never by what rays have found: "more where the first two differ"
+    // is biased.
+    bool graded = false;
+    // Links carry the light of emitters: pairs with one get four times per_pair, if graded.
+    bool emitters_shine = false;
+};
+
+// Two nodes, the light that a link between them can carry (form factor times the receiver's area,
+// m2, the larger of both ways), and how many rays test it.
+struct TestedPair {
+    NodeId a, b;
+    double transfer = 0;
+    int rays = 0;
+};
+
+// Light that a link can carry, m2. Of a cluster's surfaces a quarter of the area counts, the mean
+// of what is seen of a convex body (Cauchy).
+[[nodiscard]] double link_transfer(const PatchTree& tree, NodeId source, NodeId receiver,
+                                   float form_factor);
+
+// Sets `rays` of all pairs by their transfer; none for those that carry nothing. Returns the sum.
+std::size_t count_rays(const PatchTree& tree, const VisibilityRays& rays,
+                       std::span<TestedPair> pairs);
+
+// The share of each pair's rays that nothing blocks, 0..1, whichever of its nodes comes first; 0
+// without rays. Deterministic.
+[[nodiscard]] std::vector<float> trace_pairs(const PatchTree& tree, const RayScene& scene,
+                                             std::span<const TestedPair> pairs, Progress& progress);
+
+// Multiplies the form factors of the pairs' + links by the pair's visibility; an occluded link gets
+// 0. Pairs name nodes of `tree`. Returns the number of rays.
+std::size_t apply_ray_visibility(const PatchTree& tree, const RayScene& scene,
+                                 const VisibilityRays& rays, std::span<const LinkedPair> pairs,
+                                 std::span<RawLink> links, Progress& progress);
 
 }  // namespace antiradiance

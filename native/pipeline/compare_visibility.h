@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "base/progress.h"
 #include "pipeline/options.h"
 #include "pipeline/solution_error.h"
@@ -8,16 +11,21 @@
 
 namespace antiradiance {
 
-// Of the antiradiance solution of a scene.
+// Of the solution with one setting of Options::visibility.
 struct VisibilityError : SolutionError {
     std::size_t leaves = 0;
-    std::size_t links = 0;  // + and -
+    std::size_t links = 0;  // + and -, that were solved
+    std::size_t rays = 0;   // that tested links
+    double seconds = 0;     // for visibility, row normalisation and the solution
 };
 
-// Solves the scene with IMPLICIT visibility, then once more with every + link weighted by
-// `rays_per_link` rays and no - links. Options::visibility is not read. Throws as
+// Solves the scene in each of several ways, which differ in `visibility` and its rays, over the
+// link mesh that the first of them makes in IMPLICIT: against operator G's solution on the same
+// mesh, whose + links `reference` weighs. Pruning takes part where the way asks for it. Throws as
 // Session::render() does; `scene` is validated (and cleaned) first.
-[[nodiscard]] VisibilityError compare_visibility(Scene scene, Options options, int rays_per_link,
-                                                 Progress& progress);
+[[nodiscard]] std::vector<VisibilityError> compare_visibility(Scene scene,
+                                                              std::span<const Options> ways,
+                                                              const ReferenceRays& reference,
+                                                              Progress& progress);
 
 }  // namespace antiradiance

@@ -26,7 +26,7 @@ PruningTable evaluate_rules(Scene scene, Options options, const EvaluationRays& 
     for (const std::uint8_t gone : invisible)
         table.explicit_test += gone;
 
-    const ReferenceSolution reference(scene, options, model, rays.reference, progress);
+    const ReferenceSolution reference(scene, options, model, {{rays.reference}}, progress);
     table.unpruned = reference.error_of(model.links, progress);
     for (const PruneRule& rule : prune_rules()) {
         if (rule.traces_rays) continue;

@@ -16,8 +16,10 @@
 #include "links/build_link_set.h"
 #include "links/estimate_links.h"
 #include "links/refine.h"
+#include "links/shortest_links.h"
 #include "links/visibility.h"
 #include "pipeline/stopwatch.h"
+#include "prune/prune.h"
 #include "solve/row_normalisation.h"
 
 namespace antiradiance {
@@ -108,7 +110,7 @@ RefineOptions refine_options(const Options& options, float patch_size, std::size
     refine.link_threshold = options.link_threshold;
     refine.least_edge = kLeastEdge * patch_size;
     if (options.direct_light == DirectLightMode::kImplicit) refine.emitter_share = kEmitterShare;
-    refine.antiradiance = options.visibility == Visibility::kImplicit;
+    refine.antiradiance = options.has_antiradiance();
     refine.spread_touching = needs_directions(options);
     refine.cluster_links =
         options.visibility == Visibility::kExplicit && surfaces > kClusterSurfaces;
@@ -133,23 +135,23 @@ std::string object_of_most(const Scene& scene, const std::vector<Surface>& surfa
                                : scene.objects[static_cast<std::size_t>(most->first)].name;
 }
 
-// Antiradiance has no clusters: every surface links with every other that it can see, and a
+// Only EXPLICIT has clusters: else every surface links with every other that it can see, and a
 // detailed model may be too much for it. Returns what to tell the artist before the work starts,
 // empty where it is no burden; throws where the links can't fit into memory.
 std::string check_implicit_links(const Scene& scene, const GrowingTree& tree,
-                                 const RefineOptions& refine) {
-    if (!refine.antiradiance) return {};
+                                 const Options& options, const RefineOptions& refine) {
+    if (options.visibility == Visibility::kExplicit) return {};
     const double links = estimate_links_without_clusters(tree);
     if (links < kManyLinks) return {};
     char millions[32];
     std::snprintf(millions, sizeof(millions), "%.0f million", links / 1e6);
     const std::string what =
-        "Visibility Implicit links each of " + std::to_string(tree.surfaces().size()) +
-        " surfaces, most of them of '" + object_of_most(scene, tree.surfaces()) +
-        "', with every other: at least " + millions + " links, " +
-        gibibytes(links * kBytesPerLink) + " of memory";
+        "Visibility " + std::string(item_of(options, "visibility")) + " links each of " +
+        std::to_string(tree.surfaces().size()) + " surfaces, most of them of '" +
+        object_of_most(scene, tree.surfaces()) + "', with every other: at least " + millions +
+        " links, " + gibibytes(links * kBytesPerLink) + " of memory";
     const std::string cure =
-        ". Set Visibility to Explicit, which links groups of surfaces, or simplify the object";
+        ". Set Visibility to EXPLICIT, which links groups of surfaces, or simplify the object";
     if (links > static_cast<double>(refine.most_links)) {
         throw SceneError(what + "; " +
                          gibibytes(static_cast<double>(refine.most_links) * kBytesPerLink) +
@@ -173,9 +175,15 @@ void drop_buried(const PatchTree& tree, std::vector<RawLink>& links) {
 
 bool needs_directions(const Options& options) {
     const DisplayOptions display = options.resolved_display();
-    return options.visibility == Visibility::kImplicit ||
+    return options.visibility != Visibility::kExplicit ||
            (display.mode == DisplayMode::kFinalShooting &&
             display.shooting_visibility == ShootingVisibility::kAntiradiance);
+}
+
+VisibilityRays visibility_rays(const Options& options) {
+    return {.per_pair = options.visibility_rays,
+            .graded = true,
+            .emitters_shine = options.direct_light == DirectLightMode::kImplicit};
 }
 
 Model build_model(const Scene& scene, const Options& options, Progress& progress) {
@@ -193,7 +201,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     check_memory(scene, surfaces, patch_size);
     const RefineOptions refine = refine_options(options, patch_size, surfaces.size());
     GrowingTree growing(std::move(surfaces));
-    const std::string burden = check_implicit_links(scene, growing, refine);
+    const std::string burden = check_implicit_links(scene, growing, options, refine);
     growing.split_to(patch_size);
     model.hierarchy_seconds = watch.lap();
 
@@ -213,17 +221,21 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     const bool explicit_visibility = options.visibility == Visibility::kExplicit;
     if (explicit_visibility) {
         progress.begin_stage("Testing visibility", 0.25F, 0.4F);
-        apply_ray_visibility(model.tree, model.rays, options.visibility_rays, refined.pairs,
-                             refined.links, progress);
+        model.link_rays = apply_ray_visibility(model.tree, model.rays, visibility_rays(options),
+                                               refined.pairs, refined.links, progress);
         model.visibility_seconds = watch.lap();
     }
 
     progress.begin_stage("Sorting links", 0.4F, 0.45F);
     model.links = build_link_set(model.tree, bins, refined.links, progress);
+    if (options.visibility == Visibility::kDiscrete) {
+        const std::vector<std::uint8_t> gone = all_but_shortest(model.tree, model.links, progress);
+        model.links = remove_links(std::move(model.links), gone);
+    }
     model.links_seconds += watch.lap();
 
     if (explicit_visibility) {
-        model.row_scale = row_scales(model.tree, model.links, model.rays, progress);
+        model.row_scale = row_scales(model.tree, model.links, {}, model.rays, progress);
         model.visibility_seconds += watch.lap();
     } else {
         model.row_scale.assign(model.tree.size(), 1);

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "hierarchy/patch_tree.h"
 #include "links/link_set.h"
+#include "links/visibility.h"
 #include "pipeline/options.h"
 #include "scene/ray_scene.h"
 
@@ -17,16 +18,21 @@ struct Model {
     RayScene rays;
     PatchTree tree;
     LinkSet links;
-    std::vector<float> row_scale;  // #nodes: EXPLICIT's row normalisation, 1 in IMPLICIT
+    std::vector<float> row_scale;  // #nodes: EXPLICIT's row normalisation, else 1
     std::vector<std::string> warnings;
     double hierarchy_seconds = 0;
     double links_seconds = 0;       // refinement, form factors, sorting
     double visibility_seconds = 0;  // rays
+    std::size_t link_rays = 0;      // that tested the links, in EXPLICIT
 };
 
-// Whether antiradiance is solved for, or shot in the picture: links are then made for the direction
-// of their light.
+// Whether the direction of light matters: links are then sorted by as many bins as the options ask
+// for. So where antiradiance is solved for or shot in the picture, and where bins are the
+// visibility.
 [[nodiscard]] bool needs_directions(const Options& options);
+
+// How rays test the links of a scene.
+[[nodiscard]] VisibilityRays visibility_rays(const Options& options);
 
 // `scene` is valid (see validate()). Throws SceneError when the patches or links would not fit into
 // memory, before they are made.

@@ -45,7 +45,13 @@ std::vector<OptionInfo> make_schema() {
                     "Antiradiance: light passes through surfaces, which send the blocked light "
                     "onwards as negative light; no visibility test between patches"},
                    {"EXPLICIT", "Explicit",
-                    "Hierarchical radiosity: every link is tested with rays; more accurate"}},
+                    "Hierarchical radiosity: every link is tested with rays; more accurate"},
+                   {"MIXED", "Mixed",
+                    "Rays where antiradiance carries most light, within Ray Budget; antiradiance "
+                    "elsewhere"},
+                   {"DISCRETE", "Discrete",
+                    "Only the nearest patch in each direction is linked (Dong et al. 2007); for "
+                    "comparisons, not for pictures"}},
          .access = access_to<&Options::visibility>()});
     schema.push_back(
         {.name = "direct_light",
@@ -111,18 +117,32 @@ std::vector<OptionInfo> make_schema() {
          .access = access_to<&Options::direction_bins>()});
     schema.push_back({.name = "visibility_rays",
                       .label = "Visibility Rays",
-                      .tooltip = "Rays that test each link when Visibility is Explicit",
+                      .tooltip = "Rays that test a link of average strength when Visibility is "
+                                 "Explicit or Mixed; strong links get up to four times as many, "
+                                 "weak ones a quarter",
                       .type = OptionType::kInt,
                       .min = 1,
                       .max = 64,
                       .soft_min = 1,
                       .soft_max = 16,
                       .access = access_to<&Options::visibility_rays>()});
+    schema.push_back({.name = "ray_budget",
+                      .label = "Ray Budget",
+                      .tooltip = "Share of the rays of Explicit visibility that Mixed may trace: 0 "
+                                 "is Implicit, 1 is Explicit",
+                      .type = OptionType::kFloat,
+                      .unit = OptionUnit::kFactor,
+                      .min = 0,
+                      .max = 1,
+                      .soft_min = 0,
+                      .soft_max = 1,
+                      .precision = 2,
+                      .access = access_to<&Options::ray_budget>()});
     schema.push_back({.name = "pruning",
                       .label = "Pruning",
                       .tooltip =
                           "Which links are removed because surfaces block them, when Visibility is "
-                          "Implicit; rays have done so when it is Explicit",
+                          "Implicit or Mixed; rays have done so when it is Explicit",
                       .type = OptionType::kEnum,
                       .items = pruning_items(),
                       .access = access_to<&Options::pruning>()});
@@ -145,6 +165,13 @@ std::vector<OptionInfo> make_schema() {
                     "whose links are tested with rays; slow. The table is in the report",
          .type = OptionType::kBool,
          .access = access_to<&Options::evaluate_pruning>()});
+    schema.push_back(
+        {.name = "remove_dark_links",
+         .label = "Remove Dark Links",
+         .tooltip = "Leave out links from patches that no light reaches, however often it bounces; "
+                    "the solution is the same",
+         .type = OptionType::kBool,
+         .access = access_to<&Options::remove_dark_links>()});
     schema.push_back(
         {.name = "iterations",
          .label = "Iterations",
@@ -194,7 +221,7 @@ std::vector<OptionInfo> make_schema() {
          .label = "Shooting Visibility",
          .tooltip = "What stops the light of a patch on its way to a pixel, in final shooting",
          .type = OptionType::kEnum,
-         .items = {{"AUTO", "Automatic", "Rays when Visibility is Explicit, else antiradiance"},
+         .items = {{"AUTO", "Automatic", "Antiradiance when Visibility is Implicit, else rays"},
                    {"ANTIRADIANCE", "Antiradiance",
                     "Patches in the way send what they block on behind them as negative light: no "
                     "rays, smooth, but wrong within a few centimetres behind a surface"},
@@ -301,9 +328,9 @@ DisplayOptions Options::resolved_display() const {
     DisplayOptions result{display,      shooting_level, shooting_visibility, shooting_samples,
                           bin_map_size, interleave,     direct_samples};
     if (shooting_visibility == ShootingVisibility::kAuto) {
-        result.shooting_visibility = visibility == Visibility::kExplicit
-                                         ? ShootingVisibility::kRays
-                                         : ShootingVisibility::kAntiradiance;
+        result.shooting_visibility = visibility == Visibility::kImplicit
+                                         ? ShootingVisibility::kAntiradiance
+                                         : ShootingVisibility::kRays;
     }
     return result;
 }

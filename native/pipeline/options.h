@@ -24,10 +24,12 @@ struct Options {
     int iterations = 0;                        // 0: until the residual is below 1e-4
     float link_threshold = 0.02F;              // form factor, 0.0005..0.5
     float max_patch_size = 0;                  // m, longest edge; 0: from the scene's size
-    int visibility_rays = 4;                   // per link, 1..64
-    PruneMethod pruning = PruneMethod::kNone;  // of links, in IMPLICIT
+    int visibility_rays = 4;                   // per link of average transfer, 1..64
+    float ray_budget = 0.25F;                  // of EXPLICIT's rays, in MIXED, 0..1
+    PruneMethod pruning = PruneMethod::kNone;  // of links, in IMPLICIT and MIXED
     PruneDirections pruning_directions = PruneDirections::kStrict;  // of heuristic 1
-    bool evaluate_pruning = false;  // of all rules, with each render
+    bool evaluate_pruning = false;   // of all rules, with each render
+    bool remove_dark_links = false;  // those that carry nothing while the lights stay as they are
     SolverChoice solver = SolverChoice::kAuto;
     DisplayMode display = DisplayMode::kFinalShooting;
     ShootingLevel shooting_level = ShootingLevel::kCut;
@@ -40,6 +42,10 @@ struct Options {
 
     bool operator==(const Options&) const = default;
 
+    // Whether light passes through surfaces and is taken back, at least in part: - links exist.
+    [[nodiscard]] bool has_antiradiance() const {
+        return visibility == Visibility::kImplicit || visibility == Visibility::kMixed;
+    }
     // Of the display, with nothing left to choose.
     [[nodiscard]] DisplayOptions resolved_display() const;
 };

@@ -16,6 +16,7 @@ std::string Report::to_json() const {
         {"removed", pruning.removed_radiance + pruning.removed_antiradiance},
         {"removed_radiance", pruning.removed_radiance},
         {"removed_antiradiance", pruning.removed_antiradiance},
+        {"removed_dark", pruning.removed_dark},
         {"seconds", pruning.seconds}};
     if (!pruning.evaluation.empty()) pruning_json["evaluation"] = json_of(pruning.evaluation);
     const nlohmann::ordered_json json = {
@@ -27,6 +28,11 @@ std::string Report::to_json() const {
           {"total", links.total},
           {"bytes", links.bytes}}},
         {"pruning", pruning_json},
+        {"visibility",
+         {{"mode", visibility.mode},
+          {"rays", visibility.rays},
+          {"explicit_rows", visibility.explicit_rows},
+          {"implicit_rows", visibility.implicit_rows}}},
         {"direct", {{"shadow_maps", direct.shadow_maps}, {"bytes", direct.bytes}}},
         {"solve",
          {{"backend", solve.backend},

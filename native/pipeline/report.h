@@ -21,9 +21,15 @@ struct Report {
     struct Pruning {
         std::string method;  // the option's item; NONE where it took no part
         std::size_t removed_radiance = 0, removed_antiradiance = 0;  // links
+        std::size_t removed_dark = 0;  // after that, that carry nothing in this light
         double seconds = 0;
         std::vector<RuleEvaluation> evaluation;  // empty: not asked for
     } pruning;
+    struct VisibilityTest {
+        std::string mode;                                  // the option's item
+        std::size_t rays = 0;                              // between patches that links join
+        std::size_t explicit_rows = 0, implicit_rows = 0;  // links of a receiver in a bin
+    } visibility;
     struct Direct {
         std::size_t shadow_maps = 0;  // images; 0: shadow rays
         std::size_t bytes = 0;        // of the images

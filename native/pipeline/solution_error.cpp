@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "links/build_link_set.h"
-#include "links/visibility.h"
+#include "links/link_pairs.h"
 #include "pipeline/choose_solver.h"
+#include "prune/prune.h"
 #include "solve/direct_light.h"
+#include "solve/row_normalisation.h"
 
 namespace antiradiance {
 
@@ -74,48 +75,48 @@ float least_component(std::span<const vec3> radiance) {
 
 }  // namespace
 
-LinkSet explicit_links(const Model& implicit, int rays_per_link, Progress& progress) {
-    std::vector<RawLink> links;
-    std::vector<LinkedPair> pairs;
-    links.reserve(implicit.links.radiance_count);
-    pairs.reserve(implicit.links.radiance_count);
-    for (int b = 0; b < implicit.links.bins.count(); ++b) {
-        const auto bin = static_cast<std::size_t>(b);
-        for (std::uint32_t i = implicit.links.bin_segments[bin];
-             i < implicit.links.bin_segments[bin + 1]; ++i) {
-            const Segment& s = implicit.links.segments[i];
-            for (std::uint32_t l = s.begin; l < s.end; ++l) {
-                const Link& link = implicit.links.links[l];
-                if (link.form_factor < 0) continue;
-                pairs.push_back(
-                    {link.source, s.receiver, static_cast<std::uint32_t>(links.size()), 1});
-                links.push_back(
-                    {s.receiver, link.source, link.form_factor, static_cast<std::uint16_t>(b)});
-            }
-        }
+ExplicitLinks explicit_links(const Model& implicit, const VisibilityRays& rays,
+                             Progress& progress) {
+    LinkPairs pairs = pair_links(implicit.tree, implicit.links);
+    ExplicitLinks result;
+    result.rays = count_rays(implicit.tree, rays, pairs.pairs);
+    const std::vector<float> visibility =
+        trace_pairs(implicit.tree, implicit.rays, pairs.pairs, progress);
+    LinkSet links = implicit.links;
+    RemovedLinks blocked(links.links.size(), 1);
+    for (std::size_t l = 0; l < blocked.size(); ++l) {
+        if (pairs.of_link[l] == kNoPair) continue;
+        links.links[l].form_factor *= visibility[pairs.of_link[l]];
+        blocked[l] = links.links[l].form_factor == 0;
     }
-    apply_ray_visibility(implicit.tree, implicit.rays, rays_per_link, pairs, links, progress);
-    return build_link_set(implicit.tree, implicit.links.bins, links, progress);
+    result.links = remove_links(std::move(links), blocked);
+    return result;
 }
 
 ReferenceSolution::ReferenceSolution(const Scene& scene, const Options& options, const Model& model,
-                                     int rays_per_link, Progress& progress)
+                                     const ReferenceRays& rays, Progress& progress)
     : options_(options), model_(model) {
     const DirectLight light(scene, model.rays, options.direct_light, progress);
     direct_ = light.leaf_irradiance(model.tree, progress);
     input_ = make_transport_input(scene, model.tree, direct_, options.direct_light);
-    solution_ = solve(explicit_links(model, rays_per_link, progress), progress);
+    const LinkSet links = explicit_links(model, rays.rays, progress).links;
+    std::vector<float> row_scale;
+    if (rays.normalised) row_scale = row_scales(model.tree, links, {}, model.rays, progress);
+    solution_ = solve(links, row_scale, progress);
 }
 
-Solution ReferenceSolution::solve(const LinkSet& links, Progress& progress) const {
+Solution ReferenceSolution::solve(const LinkSet& links, std::span<const float> row_scale,
+                                  Progress& progress) const {
     SolveOptions solve;
     solve.iterations = options_.iterations;
-    return solve_transport(options_.solver, input_.problem(model_, links), solve, progress)
-        .solution;
+    const TransportProblem problem =
+        input_.problem(model_.tree, links, row_scale.empty() ? model_.row_scale : row_scale);
+    return solve_transport(options_.solver, problem, solve, progress).solution;
 }
 
-SolutionError ReferenceSolution::error_of(const LinkSet& links, Progress& progress) const {
-    const Solution test = solve(links, progress);
+SolutionError ReferenceSolution::error_of(const LinkSet& links, std::span<const float> row_scale,
+                                          Progress& progress) const {
+    const Solution test = solve(links, row_scale, progress);
     SolutionError error;
     measure(model_.tree, direct_, test.irradiance, solution_.irradiance, error);
     error.converged = test.converged && solution_.converged;

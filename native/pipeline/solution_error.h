@@ -25,21 +25,38 @@ struct SolutionError {
     float least_radiance = 0;  // W/(m2 sr), of both solutions
 };
 
-// The + links of an IMPLICIT model, each weighted by `rays_per_link` rays; no - links.
-[[nodiscard]] LinkSet explicit_links(const Model& implicit, int rays_per_link, Progress& progress);
+struct ExplicitLinks {
+    LinkSet links;
+    std::size_t rays = 0;  // that weighted them
+};
+// The + links of an IMPLICIT model, each weighted by rays; no - links.
+[[nodiscard]] ExplicitLinks explicit_links(const Model& implicit, const VisibilityRays& rays,
+                                           Progress& progress);
+
+struct ReferenceRays {
+    VisibilityRays rays;
+    bool normalised = false;  // rows, as EXPLICIT does
+};
 
 class ReferenceSolution {
 public:
-    // model: of IMPLICIT. Every + link is weighted by `rays_per_link` rays, and no - link takes
-    // part. Borrows the model. Throws what the solver throws.
+    // model: of IMPLICIT. The reference is that of its explicit_links(). Borrows the model. Throws
+    // what the solver throws.
     ReferenceSolution(const Scene& scene, const Options& options, const Model& model,
-                      int rays_per_link, Progress& progress);
+                      const ReferenceRays& rays, Progress& progress);
 
-    // links: the model's, or a part of them.
-    [[nodiscard]] SolutionError error_of(const LinkSet& links, Progress& progress) const;
+    // links: the model's, or made of them. row_scale: #nodes; empty: 1.
+    [[nodiscard]] SolutionError error_of(const LinkSet& links, std::span<const float> row_scale,
+                                         Progress& progress) const;
+    [[nodiscard]] SolutionError error_of(const LinkSet& links, Progress& progress) const {
+        return error_of(links, {}, progress);
+    }
+
+    [[nodiscard]] const TransportInput& input() const { return input_; }
 
 private:
-    [[nodiscard]] Solution solve(const LinkSet& links, Progress& progress) const;
+    [[nodiscard]] Solution solve(const LinkSet& links, std::span<const float> row_scale,
+                                 Progress& progress) const;
 
     Options options_;
     const Model& model_;

@@ -77,7 +77,7 @@ bool same_model_input(const StageInput& was, const StageInput& is) {
 }
 
 bool prunes(const Options& options) {
-    return options.pruning != PruneMethod::kNone && options.visibility == Visibility::kImplicit;
+    return options.pruning != PruneMethod::kNone && options.has_antiradiance();
 }
 
 bool same_pruning_input(const StageInput& was, const StageInput& is) {
@@ -101,13 +101,19 @@ bool same_direct_light_input(const StageInput& was, const StageInput& is) {
            (!all || same_emission(was.scene, is.scene));
 }
 
-bool same_solve_input(const StageInput& was, const StageInput& is) {
-    const auto solving = [](const Options& o) {
-        return std::tie(o.direct_light, o.iterations, o.solver);
+bool same_transport_input(const StageInput& was, const StageInput& is) {
+    const auto choosing = [](const Options& o) {
+        const bool mixed = o.visibility == Visibility::kMixed;
+        return std::tuple(o.direct_light, o.remove_dark_links, mixed ? o.ray_budget : 0.0F);
     };
-    return solving(was.options) == solving(is.options) && same_albedo(was.scene, is.scene) &&
+    return choosing(was.options) == choosing(is.options) && same_albedo(was.scene, is.scene) &&
            same_emission(was.scene, is.scene) &&
            same(was.scene.lamps, is.scene.lamps, &Lamp::power);  // area lamps that emit along links
+}
+
+bool same_solve_input(const StageInput& was, const StageInput& is) {
+    const auto solving = [](const Options& o) { return std::tie(o.iterations, o.solver); };
+    return solving(was.options) == solving(is.options);
 }
 
 bool same_evaluation_input(const StageInput& was, const StageInput& is) {

@@ -23,6 +23,7 @@ struct StageInput {
 [[nodiscard]] bool same_model_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_pruning_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_direct_light_input(const StageInput& was, const StageInput& is);
+[[nodiscard]] bool same_transport_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_solve_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_evaluation_input(const StageInput& was, const StageInput& is);
 

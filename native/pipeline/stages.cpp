@@ -9,7 +9,7 @@
 
 #include "pipeline/choose_solver.h"
 #include "pipeline/stopwatch.h"
-#include "pipeline/transport_input.h"
+#include "prune/dark_links.h"
 
 namespace antiradiance {
 
@@ -58,9 +58,6 @@ void run_pruning(const StageInput& input, StageResults& results, Report::Timings
 }
 
 void describe_pruning(const StageInput& input, const StageResults& results, Report& report) {
-    const LinkSet& links = results.links();
-    report.links = {links.radiance_count, links.antiradiance_count, links.links.size(),
-                    links.bytes()};
     report.pruning.method = item_of(input.options, "pruning");
     if (results.pruned) {
         report.pruning.removed_radiance = results.pruned->removed_radiance;
@@ -69,8 +66,8 @@ void describe_pruning(const StageInput& input, const StageResults& results, Repo
     } else if (input.options.pruning != PruneMethod::kNone) {
         report.pruning.method = "NONE";
         report.warnings.push_back(
-            "Pruning changes nothing with Visibility set to Explicit, where rays test every link: "
-            "set Pruning to None, or Visibility to Implicit");
+            "Pruning changes nothing unless Visibility is Implicit or Mixed, as there is no "
+            "antiradiance: set Pruning to None, or change Visibility");
     }
 }
 
@@ -98,22 +95,69 @@ void forget_direct_light(StageResults& results) {
     results.leaf_direct = {};
 }
 
+// What the solver is given: light and reflectance of the leaves, and the links that the light
+// leaves or rays decide.
+void run_transport(const StageInput& input, StageResults& results, Report::Timings& timings,
+                   Progress& progress) {
+    const Model& model = *results.model;
+    const Options& options = input.options;
+    if (model.tree.size() == 0) return;
+    Stopwatch watch;
+    progress.begin_stage("Choosing links", 0.6F, 0.65F);
+    results.transport =
+        make_transport_input(input.scene, model.tree, results.leaf_direct, options.direct_light);
+    if (options.remove_dark_links) {
+        const RemovedLinks dark =
+            find_dark_links(model.tree, results.links(), results.transport.source,
+                            results.transport.albedo, progress);
+        results.lit_links = remove_links(results.links(), dark);
+    }
+    if (options.visibility == Visibility::kMixed) {
+        results.mixed = mix_visibility(results.problem(), model.rays,
+                                       {options.ray_budget, visibility_rays(options)}, progress);
+        timings.visibility += watch.lap();
+    }
+}
+
+void describe_transport(const StageInput& input, const StageResults& results, Report& report) {
+    const LinkSet& links = results.links();
+    report.links = {links.radiance_count, links.antiradiance_count, links.links.size(),
+                    links.bytes()};
+    report.visibility.mode = item_of(input.options, "visibility");
+    if (results.lit_links) {
+        const LinkSet& before = results.pruned ? results.pruned->links : results.model->links;
+        report.pruning.removed_dark = before.links.size() - results.lit_links->links.size();
+    }
+    if (results.mixed) {
+        report.visibility.rays = results.mixed->rays;
+        report.visibility.explicit_rows = results.mixed->explicit_rows;
+        report.visibility.implicit_rows = results.mixed->implicit_rows;
+    } else {
+        const bool rays_decide = input.options.visibility == Visibility::kExplicit;
+        report.visibility.rays = results.model->link_rays;
+        (rays_decide ? report.visibility.explicit_rows : report.visibility.implicit_rows) =
+            links.segments.size();
+    }
+}
+
+void forget_transport(StageResults& results) {
+    results.transport = {};
+    results.lit_links.reset();
+    results.mixed.reset();
+}
+
 void run_solve(const StageInput& input, StageResults& results, Report::Timings& timings,
                Progress& progress) {
-    const Model& model = *results.model;
-    if (model.tree.size() == 0) {
+    if (results.model->tree.size() == 0) {
         results.solve = {"CPU", "", "no light reaches a surface: there is nothing to solve",
                          0,     0,  true};
         return;
     }
-    progress.begin_stage("Solving", 0.6F, 0.75F);
+    progress.begin_stage("Solving", 0.65F, 0.75F);
     const Options& options = input.options;
-    const TransportInput transport =
-        make_transport_input(input.scene, model.tree, results.leaf_direct, options.direct_light);
     SolveOptions solve;
     solve.iterations = options.iterations;
-    SolverRun run =
-        solve_transport(options.solver, transport.problem(model, results.links()), solve, progress);
+    SolverRun run = solve_transport(options.solver, results.problem(), solve, progress);
     Solution& solution = run.solution;
     if (!run.device.warning.empty()) results.solve_warnings.push_back(run.device.warning);
     if (!solution.converged && options.iterations == 0) {
@@ -173,8 +217,8 @@ void run_display(const StageInput& input, StageResults& results, Report::Timings
     results.shown = results.display.make_picture(
         input.options.solver,
         {input.scene, results.model->rays, results.model->tree, results.links(),
-         results.pruned.has_value(), *results.direct, results.leaf_direct, results.irradiance,
-         results.radiance, input.film_transparent},
+         results.pruned ? &results.pruned->links : nullptr, *results.direct, results.leaf_direct,
+         results.irradiance, results.radiance, input.film_transparent},
         input.options.resolved_display(), progress);
     timings.display = watch.lap();
 }
@@ -194,6 +238,7 @@ constexpr std::array kStages{
     Stage{"pruning", same_pruning_input, run_pruning, describe_pruning, forget_pruning},
     Stage{"direct_light", same_direct_light_input, run_direct_light, describe_direct_light,
           forget_direct_light},
+    Stage{"transport", same_transport_input, run_transport, describe_transport, forget_transport},
     Stage{"solve", same_solve_input, run_solve, describe_solve, forget_solve},
     Stage{"evaluation", same_evaluation_input, run_evaluation, describe_evaluation,
           forget_evaluation},

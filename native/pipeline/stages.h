@@ -17,8 +17,10 @@
 #include "pipeline/model.h"
 #include "pipeline/report.h"
 #include "pipeline/stage_input.h"
+#include "pipeline/transport_input.h"
 #include "prune/prune.h"
 #include "solve/direct_light.h"
+#include "solve/mixed_visibility.h"
 
 namespace antiradiance {
 
@@ -27,15 +29,27 @@ struct StageResults {
     std::optional<PruneResult> pruned;  // without: all of the model's links take part
     std::optional<DirectLight> direct;
     std::vector<vec3> leaf_direct;  // #nodes, W/m2 of it on each leaf
-    std::vector<vec3> irradiance;   // #nodes, W/m2 that links brought to each leaf
-    std::vector<vec3> radiance;     // #nodes, W/(m2 sr), L of Eq. 3
+    TransportInput transport;
+    std::optional<LinkSet> lit_links;      // without: no dark links were removed
+    std::optional<MixedVisibility> mixed;  // without: the visibility is not MIXED
+    std::vector<vec3> irradiance;          // #nodes, W/m2 that links brought to each leaf
+    std::vector<vec3> radiance;            // #nodes, W/(m2 sr), L of Eq. 3
     Report::Solve solve;
     std::vector<std::string> solve_warnings;
     PruningTable pruning_table;  // empty: not asked for
     ChosenDisplay display;       // for its compiled shaders
     DisplayRun shown;            // empty without a camera
 
-    [[nodiscard]] const LinkSet& links() const { return pruned ? pruned->links : model->links; }
+    // As far as the stages have come.
+    [[nodiscard]] const LinkSet& links() const {
+        return mixed       ? mixed->links
+               : lit_links ? *lit_links
+               : pruned    ? pruned->links
+                           : model->links;
+    }
+    [[nodiscard]] TransportProblem problem() const {
+        return transport.problem(model->tree, links(), mixed ? mixed->row_scale : model->row_scale);
+    }
 };
 
 class Stages {

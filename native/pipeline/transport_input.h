@@ -15,12 +15,10 @@ struct TransportInput {
                                // emission unless shadow rays carry it; of the exposed part
     std::vector<vec3> albedo;  // #nodes, reflectance times exposed share
 
-    // Borrows this, the model and the links: the model's, or those that pruning left of them.
-    [[nodiscard]] TransportProblem problem(const Model& model, const LinkSet& links) const {
-        return {model.tree, links, source, albedo, model.row_scale};
-    }
-    [[nodiscard]] TransportProblem problem(const Model& model) const {
-        return problem(model, model.links);
+    // Borrows all: this, and what may be the model's or made from it.
+    [[nodiscard]] TransportProblem problem(const PatchTree& tree, const LinkSet& links,
+                                           std::span<const float> row_scale) const {
+        return {tree, links, source, albedo, row_scale};
     }
 };
 

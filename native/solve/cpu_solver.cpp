@@ -80,12 +80,13 @@ std::unique_ptr<Solver> make_cpu_solver() {
 }
 
 std::vector<vec3> gather_once(const PatchTree& tree, const LinkSet& links,
-                              std::span<const vec3> radiance, Progress& progress) {
+                              std::span<const vec3> radiance, std::span<const std::uint8_t> rows,
+                              Progress& progress) {
     std::vector<vec3> pulled(radiance.begin(), radiance.end());
     pull_area_average<vec3>(tree, pulled);
     Transport transport(tree, links);
     transport.gather(pulled, Sweep::kJacobi, 1, progress);
-    return transport.leaf_irradiance();
+    return transport.leaf_irradiance(rows);
 }
 
 }  // namespace antiradiance

@@ -42,23 +42,25 @@ float covered_share(const PatchTree& tree, const RayScene& rays, NodeId leaf) {
 
 }  // namespace
 
-std::vector<float> row_scales(const PatchTree& tree, const LinkSet& links, const RayScene& rays,
-                              Progress& progress) {
+std::vector<float> row_scales(const PatchTree& tree, const LinkSet& links, const RowSubset& subset,
+                              const RayScene& rays, Progress& progress) {
     std::vector<vec3> one(tree.size(), vec3(0));
     for (const NodeId leaf : tree.leaves) {
         if (!tree.emits_only(leaf))
             one[static_cast<std::size_t>(leaf)] =
                 vec3(tree.exposed[static_cast<std::size_t>(leaf)]);
     }
-    const std::vector<vec3> sums = gather_once(tree, links, one, progress);
+    const std::vector<vec3> sums = gather_once(tree, links, one, subset.rows, progress);
     std::vector<float> scales(tree.size(), 1);
     parallel_for_blocks(tree.leaves.size(), 64, progress, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const NodeId leaf = tree.leaves[i];
             const auto n = static_cast<std::size_t>(leaf);
             const float sum = sums[n].x * kInvPi;
-            if (tree.emits_only(leaf) || sum <= 0) continue;
-            scales[n] = std::clamp(covered_share(tree, rays, leaf) / sum, kLeastScale, kMostScale);
+            const float share = subset.share.empty() ? 1.0F : subset.share[n];
+            if (tree.emits_only(leaf) || sum <= 0 || share <= 0) continue;
+            scales[n] =
+                std::clamp(share * covered_share(tree, rays, leaf) / sum, kLeastScale, kMostScale);
         }
     });
     return scales;

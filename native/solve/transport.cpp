@@ -193,12 +193,13 @@ void Transport::push_moments(std::vector<Moments>& received, std::vector<vec3>& 
     }
 }
 
-std::vector<vec3> Transport::leaf_irradiance() const {
+std::vector<vec3> Transport::leaf_irradiance(std::span<const std::uint8_t> rows) const {
     std::vector<vec3> irradiance(tree_.size(), vec3(0));
     std::vector<Moments> received(clusters_receive_ ? tree_.size() : 0);
     for (std::size_t b = 0; b + 1 < links_.bin_segments.size(); ++b) {
         const vec3 to_source = -links_.bins.axis(static_cast<int>(b));
         for (std::uint32_t i = links_.bin_segments[b]; i < links_.bin_segments[b + 1]; ++i) {
+            if (!rows.empty() && !rows[i]) continue;
             const NodeId receiver = links_.segments[i].receiver;
             if (tree_.is_cluster(receiver)) {
                 received[static_cast<std::size_t>(receiver)].add(to_source, phi_[i]);

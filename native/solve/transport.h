@@ -6,6 +6,7 @@
 // tree.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,8 @@ public:
     [[nodiscard]] std::span<const vec3> flux() const { return phi_; }
 
     // Irradiance of all leaves from the last gather, W/m2.  // #nodes, 0 at inner nodes
-    [[nodiscard]] std::vector<vec3> leaf_irradiance() const;
+    // rows: #segments, 1: takes part; empty: all.
+    [[nodiscard]] std::vector<vec3> leaf_irradiance(std::span<const std::uint8_t> rows = {}) const;
 
     // Kept beside the tree and the links, but for what each node takes.
     [[nodiscard]] std::size_t bytes() const;

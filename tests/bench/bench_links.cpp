@@ -80,7 +80,7 @@ void visibility_rays(benchmark::State& state) {
     for (auto _ : state) {
         Progress progress;
         meter.time([&] {
-            apply_ray_visibility(room.model.tree, room.model.rays, rays_per_pair, all.pairs,
+            apply_ray_visibility(room.model.tree, room.model.rays, {rays_per_pair}, all.pairs,
                                  all.links, progress);
         });
     }

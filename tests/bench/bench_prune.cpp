@@ -96,7 +96,7 @@ void four_rays_a_plus_link(benchmark::State& state) {
     for (auto _ : state) {
         Progress progress;
         meter.time([&] {
-            apply_ray_visibility(room.model.tree, room.model.rays, 4, all.pairs, all.links,
+            apply_ray_visibility(room.model.tree, room.model.rays, {4}, all.pairs, all.links,
                                  progress);
         });
     }

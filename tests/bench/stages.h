@@ -22,7 +22,9 @@ struct Stages {
     std::unique_ptr<DirectLight> direct;
     TransportInput input;
 
-    [[nodiscard]] TransportProblem problem() const { return input.problem(model); }
+    [[nodiscard]] TransportProblem problem() const {
+        return input.problem(model.tree, model.links, model.row_scale);
+    }
 };
 
 // Made on first use.

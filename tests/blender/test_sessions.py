@@ -3,7 +3,7 @@
 
 import pytest
 
-ALL = ["model", "pruning", "direct_light", "solve", "evaluation", "display"]
+ALL = ["model", "pruning", "direct_light", "transport", "solve", "evaluation", "display"]
 
 
 @pytest.fixture(scope="module")

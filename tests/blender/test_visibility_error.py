@@ -33,8 +33,11 @@ CASES = [(scene, mode) for scene in FLOORS for mode in ("EXPLICIT", "IMPLICIT")]
 
 @pytest.fixture(scope="module")
 def errors(in_blender):
-    jobs = [[str(SCENES / f"{scene}.blend"), {"direct_light": mode}] for scene, mode in CASES]
-    return dict(zip(CASES, in_blender("visibility_error.py", json.dumps(jobs), timeout=900)))
+    way = {"visibility": "IMPLICIT"}
+    jobs = [[str(SCENES / f"{scene}.blend"), [way | {"direct_light": mode}], {}]
+            for scene, mode in CASES]
+    found = in_blender("visibility_error.py", json.dumps(jobs), timeout=900)
+    return dict(zip(CASES, [of_job[0] for of_job in found]))
 
 
 @pytest.mark.parametrize("scene, mode", CASES)

@@ -54,7 +54,7 @@ struct Stage {
     }
     Picture picture(bool transparent = false) {
         const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
-        return make_picture({scene, rays, tree, LinkSet{}, false, direct, irradiance, irradiance,
+        return make_picture({scene, rays, tree, LinkSet{}, nullptr, direct, irradiance, irradiance,
                              irradiance, transparent, 4},
                             {.mode = DisplayMode::kPatches}, *backend, progress);
     }

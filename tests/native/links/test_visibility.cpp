@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "links/link_pairs.h"
 #include "links/visibility.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ double floor_light(const Scene& scene, int rays_per_pair, float max_edge) {
     const RayScene rays(scene);
     Progress progress;
     if (rays_per_pair > 0) {
-        apply_ray_visibility(linked.tree, rays, rays_per_pair, linked.refined.pairs,
+        apply_ray_visibility(linked.tree, rays, {rays_per_pair}, linked.refined.pairs,
                              linked.refined.links, progress);
     }
     const PatchTree& tree = linked.tree;
@@ -70,8 +71,10 @@ TEST(RayVisibility, AHalfScreenHidesHalf) {
     // about x = 1/2 just as many lie left as right of its edge there.
     const double open = floor_light(screened(0), 0, 0.3F);
     for (const int rays : {1, 4, 16}) {
-        // Some 500 pairs whose share of 1/2 is known to 1 / (2 sqrt rays) each.
-        EXPECT_NEAR(floor_light(screened(0.5F), rays, 0.15F) / open, 0.5, 0.02) << rays;
+        // Some 500 pairs whose share of 1/2 is known to 1 / (2 sqrt rays) each: three deviations.
+        EXPECT_NEAR(floor_light(screened(0.5F), rays, 0.15F) / open, 0.5,
+                    3 * 0.5 / std::sqrt(500.0 * rays))
+            << rays;
     }
 }
 
@@ -103,7 +106,7 @@ TEST(RayVisibility, FourRaysAreNearToManyRays) {
     const auto links_by = [&](int count) {
         std::vector<RawLink> links = open.refined.links;
         Progress progress;
-        apply_ray_visibility(open.tree, rays, count, open.refined.pairs, links, progress);
+        apply_ray_visibility(open.tree, rays, {count}, open.refined.pairs, links, progress);
         return links;
     };
     const std::vector<RawLink> few = links_by(4);
@@ -135,9 +138,105 @@ TEST(RayVisibility, DoesNotDependOnTheOrderOfPairs) {
     std::reverse(backwards.refined.pairs.begin(), backwards.refined.pairs.end());
     Progress progress;
     for (LinkedScene* l : {&forwards, &backwards})
-        apply_ray_visibility(l->tree, rays, 4, l->refined.pairs, l->refined.links, progress);
+        apply_ray_visibility(l->tree, rays, {4}, l->refined.pairs, l->refined.links, progress);
     for (std::size_t i = 0; i < forwards.refined.links.size(); ++i)
         ASSERT_EQ(forwards.refined.links[i].form_factor, backwards.refined.links[i].form_factor);
+}
+
+TEST(RayVisibility, IsThatOfThePairWhicheverComesFirst) {
+    const Scene scene = screened(0.5F);
+    const RayScene rays(scene);
+    const LinkedScene linked(scene, 0.3F, {.least_edge = 0.2F, .antiradiance = false});
+    std::vector<TestedPair> pairs;
+    for (const LinkedPair& p : linked.refined.pairs)
+        pairs.push_back({p.a, p.b, 1, 3});
+    std::vector<TestedPair> turned = pairs;
+    for (TestedPair& p : turned)
+        std::swap(p.a, p.b);
+    Progress progress;
+    const std::vector<float> seen = trace_pairs(linked.tree, rays, pairs, progress);
+    EXPECT_EQ(seen, trace_pairs(linked.tree, rays, turned, progress));
+    EXPECT_GT(std::ranges::count(seen, 0.0F), 0);
+    EXPECT_GT(std::ranges::count(seen, 1.0F), 0);
+}
+
+// Refinement knows the pairs beforehand, whoever has the sorted links finds them again.
+TEST(LinkPairs, WeighLinksAsRefinementsPairsDo) {
+    const Scene scene = screened(0.5F);
+    const RayScene rays(scene);
+    // Touching patches among them, whose links are spread over several bins.
+    LinkedScene linked(scene, 0.5F, {.link_threshold = 0.1F, .least_edge = 0.2F});
+    const VisibilityRays graded{.per_pair = 4, .graded = true};
+    Progress progress;
+    const LinkSet before = build_link_set(linked.tree, linked.bins, linked.refined.links, progress);
+    const std::size_t traced = apply_ray_visibility(linked.tree, rays, graded, linked.refined.pairs,
+                                                    linked.refined.links, progress);
+    std::erase_if(linked.refined.links, [](const RawLink& l) { return l.form_factor < 0; });
+    const LinkSet wanted = build_link_set(linked.tree, linked.bins, linked.refined.links, progress);
+
+    LinkPairs pairs = pair_links(linked.tree, before);
+    EXPECT_EQ(count_rays(linked.tree, graded, pairs.pairs), traced);
+    const std::vector<float> visible = trace_pairs(linked.tree, rays, pairs.pairs, progress);
+    std::size_t at = 0;
+    for (std::size_t l = 0; l < before.links.size(); ++l) {
+        if (pairs.of_link[l] == kNoPair) {
+            ASSERT_LT(before.links[l].form_factor, 0);
+            continue;
+        }
+        const float ff = before.links[l].form_factor * visible[pairs.of_link[l]];
+        if (ff == 0) continue;
+        ASSERT_LT(at, wanted.links.size());
+        ASSERT_EQ(wanted.links[at].source, before.links[l].source);
+        ASSERT_EQ(wanted.links[at].form_factor, ff);
+        ++at;
+    }
+    EXPECT_EQ(at, wanted.links.size());
+    EXPECT_GT(before.radiance_count, pairs.pairs.size());
+    EXPECT_GT(before.antiradiance_count, 0U);
+    EXPECT_LT(wanted.radiance_count, before.radiance_count);
+}
+
+TEST(CountRays, GradesPairsByTheirShareOfTheMean) {
+    // The floor and the ceiling; neither shines.
+    const LinkedScene linked(screened(0), 2, {.least_edge = 2, .antiradiance = false});
+    // Mean 1 over those that carry anything.
+    const std::vector<TestedPair> made{{0, 1, 0.1}, {0, 1, 0.6}, {0, 1, 0.1},
+                                       {0, 1, 4.5}, {0, 1, 0},   {0, 1, 0.1},
+                                       {0, 1, 0.6}, {0, 1, 1},   {0, 1, 1}};
+    const auto counts = [&](const VisibilityRays& rays) {
+        std::vector<TestedPair> pairs = made;
+        std::size_t total = count_rays(linked.tree, rays, pairs);
+        std::vector<int> result;
+        for (const TestedPair& p : pairs) {
+            result.push_back(p.rays);
+            total -= static_cast<std::size_t>(p.rays);
+        }
+        EXPECT_EQ(total, 0U);
+        return result;
+    };
+    EXPECT_EQ(counts({.per_pair = 4, .graded = true}),
+              (std::vector<int>{1, 4, 1, 9, 0, 1, 4, 4, 4}));
+    EXPECT_EQ(counts({.per_pair = 16, .graded = true}),
+              (std::vector<int>{4, 16, 4, 36, 0, 4, 16, 16, 16}));
+    EXPECT_EQ(counts({.per_pair = 1, .graded = true}),
+              (std::vector<int>{1, 1, 1, 2, 0, 1, 1, 1, 1}));
+    EXPECT_EQ(counts({.per_pair = 4}), (std::vector<int>{4, 4, 4, 4, 0, 4, 4, 4, 4}));
+}
+
+TEST(CountRays, EmittersGetMost) {
+    Scene scene;
+    const int dull = test::add_material(scene, vec3(0.5F));
+    const int bright = test::add_material(scene, vec3(0.5F), vec3(1));
+    test::add_quad(scene, "Floor", vec3(0), kX, kY, dull);
+    test::add_quad(scene, "Lamp", vec3(0, 0, 1), kY, kX, bright);
+    const LinkedScene linked(scene, 2, {.least_edge = 2, .antiradiance = false});
+    ASSERT_EQ(linked.refined.pairs.size(), 1U);
+    const auto rays_for = [&](bool shine) {
+        std::vector<TestedPair> pairs{{linked.refined.pairs[0].a, linked.refined.pairs[0].b, 0.2}};
+        return count_rays(linked.tree, {4, true, shine}, pairs);
+    };
+    EXPECT_EQ(rays_for(true), 16U);
+    EXPECT_EQ(rays_for(false), 4U);
 }
 
 TEST(SurfaceSampler, CoversAClusterByArea) {

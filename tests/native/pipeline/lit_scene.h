@@ -17,7 +17,9 @@ struct LitScene {
     TransportInput input;
 
     LitScene(const Scene& scene, const Options& options);
-    [[nodiscard]] TransportProblem problem() const { return input.problem(model); }
+    [[nodiscard]] TransportProblem problem() const {
+        return input.problem(model.tree, model.links, model.row_scale);
+    }
 
     // W/(m2 sr) that the exposed part of every leaf sends out in all.   // #nodes, set at leaves
     [[nodiscard]] std::vector<vec3> radiance(const Solution& solution) const;

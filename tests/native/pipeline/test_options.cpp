@@ -32,6 +32,7 @@ TEST(Options, DefaultsAreThoseOfTheManual) {
     EXPECT_EQ(o.link_threshold, 0.02F);
     EXPECT_EQ(o.max_patch_size, 0);
     EXPECT_EQ(o.visibility_rays, 4);
+    EXPECT_EQ(o.ray_budget, 0.25F);
     EXPECT_EQ(o.solver, SolverChoice::kAuto);
     EXPECT_EQ(o.display, DisplayMode::kFinalShooting);
     EXPECT_EQ(o.direct_samples, 16);
@@ -48,12 +49,17 @@ TEST(Options, SchemaHoldsEveryOptionOnce) {
         EXPECT_NE(o.tooltip.back(), '.') << o.name << ": Blender adds the full stop";
         EXPECT_EQ(o.type == OptionType::kEnum, !o.items.empty()) << o.name;
     }
-    EXPECT_EQ(names, std::set<std::string>(
-                         {"visibility", "direct_light", "direction_bins", "iterations",
-                          "link_threshold", "max_patch_size", "visibility_rays", "pruning",
-                          "pruning_directions", "evaluate_pruning", "solver", "display",
-                          "shooting_level", "shooting_visibility", "shooting_samples",
-                          "bin_map_size", "interleave", "direct_samples", "report_path"}));
+    EXPECT_EQ(names, std::set<std::string>({"visibility",       "direct_light",
+                                            "direction_bins",   "iterations",
+                                            "link_threshold",   "max_patch_size",
+                                            "visibility_rays",  "ray_budget",
+                                            "pruning",          "pruning_directions",
+                                            "evaluate_pruning", "remove_dark_links",
+                                            "solver",           "display",
+                                            "shooting_level",   "shooting_visibility",
+                                            "shooting_samples", "bin_map_size",
+                                            "interleave",       "direct_samples",
+                                            "report_path"}));
 }
 
 TEST(Options, DefaultsLieWithinTheirLimits) {

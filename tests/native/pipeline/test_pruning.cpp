@@ -61,7 +61,8 @@ TEST(Pruning, ConservativeAddsNoErrorToSpeakOf) {
         SCOPED_TRACE(c.name);
         const Pruned lit(c.scene, implicit_options(c.patch_size));
         Progress progress;
-        const std::vector<vec3> expected = lit.irradiance(explicit_links(lit.model, 16, progress));
+        const std::vector<vec3> expected =
+            lit.irradiance(explicit_links(lit.model, {16}, progress).links);
         const PruneResult pruned = lit.prune({.method = PruneMethod::kConservative});
         const auto gone =
             static_cast<double>(pruned.removed_radiance + pruned.removed_antiradiance);

@@ -114,12 +114,14 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     options.visibility = Visibility::kImplicit;
     const RenderResult result = render(test::office(), options);
     const nlohmann::json json = file.read();
-    EXPECT_EQ(keys(json), std::set<std::string>({"patches", "leaves", "links", "pruning", "direct",
-                                                 "solve", "display", "stages", "timings_s",
-                                                 "peak_memory_bytes", "warnings", "error"}));
+    EXPECT_EQ(keys(json),
+              std::set<std::string>({"patches", "leaves", "links", "pruning", "visibility",
+                                     "direct", "solve", "display", "stages", "timings_s",
+                                     "peak_memory_bytes", "warnings", "error"}));
     EXPECT_EQ(json["stages"], nlohmann::json({{"model", "run"},
                                               {"pruning", "run"},
                                               {"direct_light", "run"},
+                                              {"transport", "run"},
                                               {"solve", "run"},
                                               {"evaluation", "run"},
                                               {"display", "run"}}));

@@ -81,9 +81,10 @@ std::string ran(const Report& report) {
     return names;
 }
 
-const char* const kAll = "model pruning direct_light solve evaluation display";
-const char* const kFromPruning = "pruning direct_light solve evaluation display";
-const char* const kFromDirectLight = "direct_light solve evaluation display";
+const char* const kAll = "model pruning direct_light transport solve evaluation display";
+const char* const kFromPruning = "pruning direct_light transport solve evaluation display";
+const char* const kFromDirectLight = "direct_light transport solve evaluation display";
+const char* const kFromTransport = "transport solve evaluation display";
 const char* const kFromSolve = "solve evaluation display";
 const char* const kDisplay = "display";
 
@@ -128,22 +129,22 @@ std::vector<Edit> edits() {
          [](Input& i) { i.options.display = DisplayMode::kSplatting; }},
         {"interleave", kDisplay, kDisplay, [](Input& i) { i.options.interleave = 2; }},
 
-        {"albedo", kFromSolve, kFromSolve,
+        {"albedo", kFromTransport, kFromTransport,
          [](Input& i) { i.scene.materials[kWood].albedo = vec3(0.2F, 0.3F, 0.4F); }},
-        {"pixels of a texture", kFromSolve, kFromSolve,
+        {"pixels of a texture", kFromTransport, kFromTransport,
          [](Input& i) { i.scene.textures[0] = checker(0.4F); }},
-        {"another texture", kFromSolve, kFromSolve,
+        {"another texture", kFromTransport, kFromTransport,
          [](Input& i) { i.scene.materials[kPaper].albedo_texture = 1; }},
-        {"uv", kFromSolve, kFromSolve, [](Input& i) { i.scene.uv.back()[0] = vec2(0.3F); }},
+        {"uv", kFromTransport, kFromTransport, [](Input& i) { i.scene.uv.back()[0] = vec2(0.3F); }},
         {"iterations", kFromSolve, kFromSolve, [](Input& i) { i.options.iterations = 2; }},
 
         {"strength of a point lamp", kFromDirectLight, kFromDirectLight,
          [](Input& i) { i.scene.lamps[kPointLamp].power *= 2; }},
         {"radius of a point lamp", kFromDirectLight, kFromDirectLight,
          [](Input& i) { i.scene.lamps[kPointLamp].radius = 0.1F; }},
-        {"strength of an area lamp", kFromDirectLight, kFromSolve,
+        {"strength of an area lamp", kFromDirectLight, kFromTransport,
          [](Input& i) { i.scene.lamps[kAreaLamp].power *= 2; }},
-        {"emission", kFromDirectLight, kFromSolve,
+        {"emission", kFromDirectLight, kFromTransport,
          [](Input& i) { i.scene.materials[kPanel].emission *= 0.5F; }},
 
         {"place of a lamp", kAll, kAll,

@@ -32,11 +32,11 @@ struct Linked {
         options.least_edge = 0.15F;  // the boxes have edges of .2 and more: still split
         test::LinkedScene linked(scene, 0.6F, options);
         Progress progress;
-        apply_ray_visibility(linked.tree, rays, 4, linked.refined.pairs, linked.refined.links,
+        apply_ray_visibility(linked.tree, rays, {4}, linked.refined.pairs, linked.refined.links,
                              progress);
         links = linked.sorted();
         tree = std::move(linked.tree);
-        row_scale = row_scales(tree, links, rays, progress);
+        row_scale = row_scales(tree, links, {}, rays, progress);
         materials = average_materials(scene, tree);
         for (const Segment& s : links.segments) {
             for (std::uint32_t l = s.begin; l < s.end; ++l) {
