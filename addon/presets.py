@@ -11,7 +11,7 @@ PRESETS = {preset["id"]: preset for preset in (core.native.presets() if core.nat
 
 
 class ANTIRADIANCE_OT_apply_preset(bpy.types.Operator):
-    """Set all settings of the engine but Device and Report"""
+    """Set all settings of the engine but Device and Report File"""
     bl_idname = "antiradiance.apply_preset"
     bl_label = "Apply Preset"
     bl_options = {"REGISTER", "UNDO"}

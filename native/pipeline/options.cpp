@@ -287,7 +287,7 @@ std::vector<OptionInfo> make_schema() {
          .active = &shoots,
          .access = access_to<&Options::interleave>()});
     schema.push_back({.name = "report_path",
-                      .label = "Report",
+                      .label = "Report File",
                       .tooltip = "File that a JSON report is written to after each render, also "
                                  "after a failed one; empty for none",
                       .type = OptionType::kPath,
