@@ -14,7 +14,7 @@ SCHEMA_VERSION = "1.0.0"
 EXTENSION_BLENDER_MIN = (4, 2, 0)  # The first Blender that has extensions.
 LICENSES = ["SPDX:GPL-3.0-or-later"]
 TAGS = ["Render"]
-PERMISSIONS = {"files": "Write the JSON report to the path chosen in the Report panel"}
+PERMISSIONS = {"files": "Write the JSON report to a chosen path, and saved presets"}
 
 
 def read_bl_info(init_file: Path) -> dict:

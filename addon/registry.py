@@ -6,7 +6,7 @@ import sys
 import bpy
 
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
-           "sync", "render_log", "sessions", "properties", "engine", "ui",
+           "sync", "render_log", "sessions", "properties", "engine", "presets", "ui",
            "difference")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
@@ -16,7 +16,16 @@ for _name in MODULES:  # in this order also when Blender reloads its scripts
     else:
         importlib.import_module(_full)
 
-from . import core, difference, engine, properties, render_log, sessions, ui  # noqa: E402
+from . import (  # noqa: E402
+    core,
+    difference,
+    engine,
+    presets,
+    properties,
+    render_log,
+    sessions,
+    ui,
+)
 
 _registered = []  # classes, in the order of registering
 
@@ -27,7 +36,8 @@ def register():
         group = properties.make_group(core.native.options_schema())
         classes.append(group)
     classes += engine.CLASSES
-    classes += [*ui.CLASSES, *difference.CLASSES] if core.native else ui.CLASSES_WITHOUT_CORE
+    classes += ([*presets.CLASSES, *ui.CLASSES, *difference.CLASSES] if core.native
+                else ui.CLASSES_WITHOUT_CORE)
     for cls in classes:
         bpy.utils.register_class(cls)
         _registered.append(cls)

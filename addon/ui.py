@@ -4,7 +4,8 @@ import textwrap
 
 import bpy
 
-from . import compat, core, render_log
+from . import compat, core, presets, render_log
+from .properties import option_values
 
 ENGINE = "ANTIRADIANCE"
 
@@ -57,14 +58,21 @@ class OptionsPanel(EnginePanel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
+        settings = context.scene.antiradiance
+        active = core.native.active_options(option_values(settings))
         column = layout.column()
         for name in options_of(self.options):
-            column.prop(context.scene.antiradiance, name)
+            row = column.row()
+            row.active = name in active
+            row.prop(settings, name)
 
 
 class RENDER_PT_antiradiance_solution(OptionsPanel, bpy.types.Panel):
     bl_label = "Solution"
     options = "solution"
+
+    def draw_header_preset(self, _context):
+        presets.RENDER_PT_antiradiance_presets.draw_panel_header(self.layout)
 
 
 class RENDER_PT_antiradiance_link_mesh(OptionsPanel, bpy.types.Panel):

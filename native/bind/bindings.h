@@ -4,11 +4,16 @@
 
 #include <pybind11/pybind11.h>
 
+#include "pipeline/options.h"
+
 namespace antiradiance {
 
-void bind_schema(pybind11::module_& module);      // options_schema
+void bind_schema(pybind11::module_& module);      // options_schema, active_options, presets
 void bind_scene(pybind11::module_& module);       // Scene
 void bind_session(pybind11::module_& module);     // Session, compare_visibility, ...
 void bind_difference(pybind11::module_& module);  // luminance_difference
+
+// values: name -> value; options that it lacks are at their defaults. Throws SceneError.
+Options to_options(const pybind11::dict& values);
 
 }  // namespace antiradiance

@@ -100,33 +100,6 @@ private:
     std::jthread thread_;
 };
 
-OptionValue to_option_value(const py::handle& value, const OptionInfo* option) {
-    const bool wants_float = option != nullptr && option->type == OptionType::kFloat;
-    if (py::isinstance<py::bool_>(value)) {
-        return value.cast<bool>();
-    }
-    if (py::isinstance<py::int_>(value) && !wants_float) {
-        return value.cast<int>();
-    }
-    if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value)) {
-        return value.cast<float>();
-    }
-    return value.cast<std::string>();
-}
-
-Options to_options(const py::dict& values) {
-    Options options;
-    for (const auto& [key, value] : values) {
-        const auto name = key.cast<std::string>();
-        const OptionInfo* known = nullptr;
-        for (const OptionInfo& option : option_schema()) {
-            known = option.name == name ? &option : known;
-        }
-        set_option(options, name, to_option_value(value, known));
-    }
-    return options;
-}
-
 py::dict to_dict(const RenderResult& result) {
     const Picture& picture = result.picture;
     return py::dict("cancelled"_a = false,

@@ -2,6 +2,7 @@
 #include "pipeline/options.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -32,6 +33,51 @@ std::vector<EnumItem> pruning_items() {
     for (const PruneRule& rule : prune_rules())
         items.push_back({rule.identifier, rule.label, rule.description});
     return items;
+}
+
+// What a way to visibility makes use of.
+struct VisibilityUse {
+    bool rays;     // that test links
+    bool pruning;  // of links
+};
+
+VisibilityUse use_of(Visibility visibility) {
+    switch (visibility) {
+        case Visibility::kImplicit:
+            return {.rays = false, .pruning = true};
+        case Visibility::kExplicit:
+            return {.rays = true, .pruning = false};
+    }
+    throw std::logic_error("a visibility without a line in use_of()");
+}
+
+bool tests_links_with_rays(const Options& options) {
+    return use_of(options.visibility).rays;
+}
+
+bool prunes_links(const Options& options) {
+    return use_of(options.visibility).pruning;
+}
+
+// The evaluation has all rules, whatever the picture has.
+bool runs_heuristic_1(const Options& options) {
+    const bool has_it = options.pruning == PruneMethod::kHeuristic1 ||
+                        options.pruning == PruneMethod::kHeuristic2Then1 ||
+                        options.pruning == PruneMethod::kOracle1;
+    return options.evaluate_pruning || (prunes_links(options) && has_it);
+}
+
+bool traces_shadow_rays(const Options& options) {
+    return options.direct_light != DirectLightMode::kShadowMaps;
+}
+
+bool shoots(const Options& options) {
+    return options.display == DisplayMode::kFinalShooting;
+}
+
+bool shoots_antiradiance(const Options& options) {
+    return shoots(options) &&
+           options.resolved_display().shooting_visibility == ShootingVisibility::kAntiradiance;
 }
 
 std::vector<OptionInfo> make_schema() {
@@ -77,6 +123,7 @@ std::vector<OptionInfo> make_schema() {
          .max = 1024,
          .soft_min = 4,
          .soft_max = 128,
+         .active = &traces_shadow_rays,
          .access = access_to<&Options::direct_samples>()});
     schema.push_back(
         {.name = "max_patch_size",
@@ -125,6 +172,7 @@ std::vector<OptionInfo> make_schema() {
                       .max = 64,
                       .soft_min = 1,
                       .soft_max = 16,
+                      .active = &tests_links_with_rays,
                       .access = access_to<&Options::visibility_rays>()});
     schema.push_back({.name = "ray_budget",
                       .label = "Ray Budget",
@@ -145,6 +193,7 @@ std::vector<OptionInfo> make_schema() {
                           "Implicit or Mixed; rays have done so when it is Explicit",
                       .type = OptionType::kEnum,
                       .items = pruning_items(),
+                      .active = &prunes_links,
                       .access = access_to<&Options::pruning>()});
     schema.push_back(
         {.name = "pruning_directions",
@@ -157,6 +206,7 @@ std::vector<OptionInfo> make_schema() {
                    {"TEXT", "As in the text",
                     "The two links into the receiver lie in one bin, and the third in it or one "
                     "that touches it: finds more, and errs more"}},
+         .active = &runs_heuristic_1,
          .access = access_to<&Options::pruning_directions>()});
     schema.push_back(
         {.name = "evaluate_pruning",
@@ -215,6 +265,7 @@ std::vector<OptionInfo> make_schema() {
                    {"PARENTS", "Parents", "One level above the finest; a quarter of the patches"},
                    {"CUT", "Cut",
                     "Larger patches the farther they are, chosen for each tile of pixels"}},
+         .active = &shoots,
          .access = access_to<&Options::shooting_level>()});
     schema.push_back(
         {.name = "shooting_visibility",
@@ -227,6 +278,7 @@ std::vector<OptionInfo> make_schema() {
                     "rays, smooth, but wrong within a few centimetres behind a surface"},
                    {"RAYS", "Rays",
                     "Shadow rays to the patches, on the processor: contact shadows are exact"}},
+         .active = &shoots,
          .access = access_to<&Options::shooting_visibility>()});
     schema.push_back({.name = "shooting_samples",
                       .label = "Shooting Samples",
@@ -236,6 +288,7 @@ std::vector<OptionInfo> make_schema() {
                       .max = 16,
                       .soft_min = 1,
                       .soft_max = 16,
+                      .active = &shoots,
                       .access = access_to<&Options::shooting_samples>()});
     schema.push_back({.name = "bin_map_size",
                       .label = "Bin Map Size",
@@ -246,6 +299,7 @@ std::vector<OptionInfo> make_schema() {
                       .max = 1024,
                       .soft_min = 64,
                       .soft_max = 512,
+                      .active = &shoots_antiradiance,
                       .access = access_to<&Options::bin_map_size>()});
     schema.push_back(
         {.name = "interleave",
@@ -257,9 +311,10 @@ std::vector<OptionInfo> make_schema() {
          .max = 16,
          .soft_min = 1,
          .soft_max = 16,
+         .active = &shoots,
          .access = access_to<&Options::interleave>()});
     schema.push_back({.name = "report_path",
-                      .label = "Report",
+                      .label = "Report File",
                       .tooltip = "File that a JSON report is written to after each render, also "
                                  "after a failed one; empty for none",
                       .type = OptionType::kPath,

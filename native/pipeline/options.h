@@ -77,6 +77,8 @@ struct OptionInfo {
     double soft_min = 0, soft_max = 0;  // of a slider
     int precision = 3;                  // digits behind the point, floats
     std::vector<EnumItem> items{};      // enums; an item's index is its value
+    // Whether the option has an effect while the others are as they are.
+    bool (*active)(const Options&) = [](const Options&) { return true; };
     OptionAccess access;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "pipeline/presets.h"
 
 namespace antiradiance {
 
@@ -67,9 +68,26 @@ std::vector<std::string> ids_of(const OptionInfo& option) {
     return ids;
 }
 
+void add_preset_flag(CLI::App& command, Options& options) {
+    std::string help =
+        "What the settings start from, but for --solver and --report-path; flags change it";
+    std::vector<std::string> ids;
+    for (const Preset& preset : presets()) {
+        help += "\n" + std::string(preset.id) + ": " + std::string(preset.tooltip);
+        ids.emplace_back(preset.id);
+    }
+    const auto apply = [&options](const std::string& id) { apply_preset(options, id); };
+    command.add_option_function<std::string>("--preset", apply, help)
+        ->transform(CLI::IsMember(ids, CLI::ignore_case))
+        ->default_str(std::string(presets().front().id))
+        ->group("Engine");
+}
+
 }  // namespace
 
 void add_option_flags(CLI::App& command, Options& options) {
+    // Before the others: flags take effect in this order, whatever the command line's is.
+    add_preset_flag(command, options);
     for (const OptionInfo& option : option_schema()) {
         switch (option.type) {
             case OptionType::kEnum:

@@ -7,7 +7,8 @@
 
 namespace antiradiance {
 
-// One flag for every row of option_schema(): `--link-threshold 0.01` sets `link_threshold`.
+// One flag for every row of option_schema(): `--link-threshold 0.01` sets `link_threshold`. And
+// `--preset` for the values that the flags start from.
 void add_option_flags(CLI::App& command, Options& options);
 
 }  // namespace antiradiance

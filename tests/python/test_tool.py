@@ -166,12 +166,44 @@ def test_scale_changes_no_radiance(tool, room, tmp_path):
     assert small == pytest.approx(large, rel=0.02, abs=0.02)
 
 
-def test_every_option_of_the_engine_has_a_flag(tool, addon_folder, monkeypatch):
+@pytest.fixture
+def native_module(addon_folder, monkeypatch):
     monkeypatch.syspath_prepend(str(addon_folder))
-    schema = importlib.import_module("_antiradiance").options_schema()
+    return importlib.import_module("_antiradiance")
+
+
+def test_every_option_of_the_engine_has_a_flag(tool, native_module):
+    schema = native_module.options_schema()
     text = tool("render", "--help").stdout
     for option in schema:
         assert "--" + option["name"].replace("_", "-") + " " in text
+
+
+def test_preset(tool, room):
+    """Flags change what it sets, wherever they stand."""
+    for order in (0, 1):
+        flags = [["--preset", "paper"], ["--iterations", "2", "--direct-light", "EXPLICIT"]]
+        result = tool("render", room, *flags[order], *flags[1 - order])
+        assert result.returncode == DONE, result.stderr
+        report = json.loads(result.stdout)
+        assert report["links"]["antiradiance"] > 1000
+        assert report["pruning"]["method"] == "HEURISTIC_2_THEN_1"
+        assert report["solve"]["iterations"] == 2
+
+
+def test_presets_are_in_the_help(tool, native_module):
+    text = tool("render", "--help").stdout
+    presets = native_module.presets()
+    assert [preset["id"] for preset in presets] == ["FINAL", "PREVIEW", "PAPER"]
+    for preset in presets:
+        assert preset["id"] + ": " in text
+
+
+def test_unknown_preset(tool, room):
+    result = tool("render", room, "--preset", "BEST")
+    assert result.returncode == WRONG_USAGE
+    for identifier in ("FINAL", "PREVIEW", "PAPER"):
+        assert identifier in result.stderr
 
 
 @pytest.mark.parametrize("arguments", [
