@@ -1,110 +1,259 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 
-#include "base/parallel.h"
+#include "prune/for_each_bin.h"
+#include "prune/link_index.h"
 #include "prune/link_visibility.h"
+#include "prune/node_table.h"
 
 namespace antiradiance {
 
 namespace {
 
+// Below, two nodes are related where one is the other or lies under it.
+
+struct PlacedLink {
+    NodeId source, receiver;
+    LinkId link;
+};
+using LinkTable = NodeTable<PlacedLink>;
+
+// visit(link) for the links at all nodes that are related to one.
+template <typename Visit>
+void for_related(const PatchTree& tree, const LinkTable& table, NodeId node, const Visit& visit) {
+    for (NodeId up = tree.parent[static_cast<std::size_t>(node)]; up != kNone;
+         up = tree.parent[static_cast<std::size_t>(up)]) {
+        for (const PlacedLink& l : table.of(up))
+            visit(l);
+    }
+    const NodeId end = tree.subtree_end[static_cast<std::size_t>(node)];
+    for (const PlacedLink& l : table.of_nodes(node, end))
+        visit(l);
+}
+
+// A set of nodes, of which only those matter that lie under no other: whatever is related to any of
+// them is related to one of these.
+class TopNodes {
+public:
+    // nodes: ascending.
+    void assign(const PatchTree& tree, std::span<const NodeId> nodes) {
+        nodes_.clear();
+        NodeId end = 0;  // in preorder, what lies under a node follows it
+        for (const NodeId n : nodes) {
+            if (n < end) continue;
+            nodes_.push_back(n);
+            end = end_of(tree, n);
+        }
+    }
+    void add(const PatchTree& tree, NodeId n) {
+        const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), n);
+        if (after != nodes_.begin() && n < end_of(tree, *(after - 1))) return;
+        const auto last = std::lower_bound(after, nodes_.end(), end_of(tree, n));
+        nodes_.insert(nodes_.erase(after, last), n);
+    }
+    [[nodiscard]] bool any_related_to(const PatchTree& tree, NodeId n) const {
+        const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), n);
+        return (after != nodes_.end() && *after < end_of(tree, n)) ||
+               (after != nodes_.begin() && n < end_of(tree, *(after - 1)));
+    }
+    [[nodiscard]] auto begin() const { return nodes_.begin(); }
+    [[nodiscard]] auto end() const { return nodes_.end(); }
+
+private:
+    static NodeId end_of(const PatchTree& tree, NodeId n) {
+        return tree.subtree_end[static_cast<std::size_t>(n)];
+    }
+    std::vector<NodeId> nodes_;  // ascending
+};
+
+// Of the links of one bin and sign those that are not removed: what reaches a node or one that is
+// related to it.
+class LeftLinks {
+public:
+    // Borrows both.
+    LeftLinks(const PatchTree& tree, const std::vector<std::uint8_t>& removed)
+        : tree_(tree), removed_(removed), sources_(tree.size()), is_known_(tree.size(), 0) {}
+
+    // for_each as NodeTable::load() has it: all links by receiver, removed or not.
+    template <typename ForEach>
+    void load(const ForEach& for_each) {
+        links_.load(tree_.size(), for_each);
+        for (const NodeId n : known_)
+            is_known_[static_cast<std::size_t>(n)] = 0;
+        known_.clear();
+    }
+
+    // Nodes whose links arrive.
+    [[nodiscard]] const TopNodes& sources_to(NodeId receiver) {
+        const auto r = static_cast<std::size_t>(receiver);
+        if (is_known_[r]) return sources_[r];
+        scratch_.clear();
+        for_related(tree_, links_, receiver, [&](const PlacedLink& l) {
+            if (!removed_[l.link]) scratch_.push_back(l.source);
+        });
+        std::sort(scratch_.begin(), scratch_.end());
+        sources_[r].assign(tree_, scratch_);
+        is_known_[r] = 1;
+        known_.push_back(receiver);
+        return sources_[r];
+    }
+    // Whether a link of a node that is related to the source arrives.
+    [[nodiscard]] bool reach(NodeId source, NodeId receiver) {
+        return sources_to(receiver).any_related_to(tree_, source);
+    }
+
+    // A link that is no longer removed.
+    void add(const PlacedLink& link) {
+        const auto add_to = [&](NodeId n) {
+            if (is_known_[static_cast<std::size_t>(n)])
+                sources_[static_cast<std::size_t>(n)].add(tree_, link.source);
+        };
+        const auto r = static_cast<std::size_t>(link.receiver);
+        for (NodeId up = tree_.parent[r]; up != kNone;
+             up = tree_.parent[static_cast<std::size_t>(up)])
+            add_to(up);
+        for (NodeId n = link.receiver; n < tree_.subtree_end[r]; ++n)
+            add_to(n);
+    }
+
+private:
+    const PatchTree& tree_;
+    const std::vector<std::uint8_t>& removed_;
+    LinkTable links_;
+    std::vector<TopNodes> sources_;       // #nodes, of those that are known
+    std::vector<std::uint8_t> is_known_;  // #nodes
+    std::vector<NodeId> known_;
+    std::vector<NodeId> scratch_;
+};
+
+// + links S -> X and S' -> R and a - link X' -> R', where S and S' are related, X and X', R and R':
+// if the first is left, the other two are left or removed together. From the set without any
+// blocked link, those that break this are put back until none does.
 class Balance {
 public:
     Balance(const PatchTree& tree, const LinkSet& links,
-            const std::vector<LinkVisibility>& visibility)
-        : tree_(tree), links_(links), visibility_(visibility) {}
+            const std::vector<LinkVisibility>& visibility, std::vector<std::uint8_t>& removed)
+        : tree_(tree),
+          links_(links),
+          visibility_(visibility),
+          removed_(removed),
+          plus_(tree, removed),
+          minus_(tree, removed) {}
 
-    // The largest balanced set of blocked links: whatever has to stay makes others stay.
-    void judge_bin(int bin, std::vector<std::uint8_t>& removed) {
-        load(bin);
-        if (rows_.empty()) return;
-        const LinkId begin = links_.segments[segments_.begin()].begin;
-        const LinkId end = links_.segments[segments_.end() - 1].end;
-        for (LinkId l = begin; l < end; ++l)
-            removed[l] = visibility_[l] == LinkVisibility::kNone;
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (const Row& row : rows_) {
-                for (LinkId l = first(row.segment); l < last(row.segment); ++l) {
-                    if (!removed[l] || !must_stay(links_.links[l], row.receiver, removed)) continue;
-                    removed[l] = 0;
-                    changed = true;
-                }
-            }
+    void judge_bin(int bin) {
+        if (!load(bin)) return;
+        for (const PlacedLink& l : blocked_plus_) {
+            if (plus_must_stay(l)) put_back(l);
+        }
+        for (const PlacedLink& l : blocked_minus_) {
+            if (minus_must_stay(l)) put_back(l);
+        }
+        while (!put_back_.empty()) {
+            const PlacedLink l = put_back_.back();
+            put_back_.pop_back();
+            links_.links[l.link].form_factor > 0 ? follow_plus(l) : follow_minus(l);
         }
     }
 
 private:
-    struct Row {
-        NodeId receiver;
-        SegmentId segment;
-    };
-
-    void load(int bin) {
-        segments_.load(tree_, links_, bin);
-        rows_.clear();
-        for (SegmentId s = segments_.begin(); s < segments_.end(); ++s)
-            rows_.push_back({links_.segments[s].receiver, s});
-        std::sort(rows_.begin(), rows_.end(),
-                  [](const Row& a, const Row& b) { return a.receiver < b.receiver; });
-    }
-    [[nodiscard]] LinkId first(SegmentId s) const { return links_.segments[s].begin; }
-    [[nodiscard]] LinkId last(SegmentId s) const { return links_.segments[s].end; }
-
-    // Whether a node, one above or one below it receives a link for which test(link) holds.
-    template <typename Test>
-    [[nodiscard]] bool any_link_to(NodeId node, const std::vector<std::uint8_t>& removed,
-                                   const Test& test) const {
-        const auto any_in = [&](SegmentId s) {
-            for (LinkId l = first(s); l < last(s); ++l) {
-                if (!removed[l] && test(links_.links[l])) return true;
+    // Removes all blocked links; false: there are none.
+    bool load(int bin) {
+        const auto b = static_cast<std::size_t>(bin);
+        blocked_plus_.clear();
+        blocked_minus_.clear();
+        const auto for_each = [&](const auto& visit) {
+            for (SegmentId s = links_.bin_segments[b]; s < links_.bin_segments[b + 1]; ++s) {
+                const Segment& row = links_.segments[s];
+                for (LinkId l = row.begin; l < row.end; ++l)
+                    visit(PlacedLink{links_.links[l].source, row.receiver, l});
             }
-            return false;
         };
-        for (NodeId up = tree_.parent[static_cast<std::size_t>(node)];
-             up != kNone && !tree_.is_cluster(up);
-             up = tree_.parent[static_cast<std::size_t>(up)]) {
-            if (segments_[up] != kAbsent && any_in(segments_[up])) return true;
-        }
-        const NodeId end = tree_.subtree_end[static_cast<std::size_t>(node)];
-        auto row = std::lower_bound(rows_.begin(), rows_.end(), node,
-                                    [](const Row& r, NodeId n) { return r.receiver < n; });
-        for (; row != rows_.end() && row->receiver < end; ++row) {
-            if (any_in(row->segment)) return true;
-        }
-        return false;
-    }
-
-    [[nodiscard]] bool must_stay(const Link& link, NodeId receiver,
-                                 const std::vector<std::uint8_t>& removed) const {
-        if (link.form_factor > 0) {
-            return any_link_to(receiver, removed, [&](const Link& other) {
-                return other.form_factor < 0 && sends(link.source, other.source, removed);
+        for_each([&](const PlacedLink& l) {
+            if (visibility_[l.link] != LinkVisibility::kNone) return;
+            removed_[l.link] = 1;
+            (is_plus(l) ? blocked_plus_ : blocked_minus_).push_back(l);
+        });
+        if (blocked_plus_.empty() && blocked_minus_.empty()) return false;
+        plus_.load([&](const auto& visit) {
+            for_each([&](const PlacedLink& l) {
+                if (is_plus(l)) visit(l.receiver, l);
             });
-        }
-        return any_link_to(link.source, removed, [&](const Link& other) {
-            return other.form_factor > 0 && sends(other.source, receiver, removed);
+        });
+        minus_.load([&](const auto& visit) {
+            for_each([&](const PlacedLink& l) {
+                if (!is_plus(l)) visit(l.receiver, l);
+            });
+        });
+        index(blocked_plus_, &PlacedLink::source, blocked_plus_from_);
+        index(blocked_plus_, &PlacedLink::receiver, blocked_plus_to_);
+        index(blocked_minus_, &PlacedLink::source, blocked_minus_from_);
+        index(blocked_minus_, &PlacedLink::receiver, blocked_minus_to_);
+        return true;
+    }
+
+    [[nodiscard]] bool is_plus(const PlacedLink& l) const {
+        return links_.links[l.link].form_factor > 0;
+    }
+
+    void index(const std::vector<PlacedLink>& blocked, NodeId PlacedLink::*end, LinkTable& table) {
+        table.load(tree_.size(), [&](const auto& visit) {
+            for (const PlacedLink& l : blocked)
+                visit(l.*end, l);
         });
     }
 
-    // Whether light of a node, or of a patch above or below it, arrives at another.
-    [[nodiscard]] bool sends(NodeId source, NodeId receiver,
-                             const std::vector<std::uint8_t>& removed) const {
-        return any_link_to(receiver, removed, [&](const Link& l) {
-            return l.form_factor > 0 && (holds(l.source, source) || holds(source, l.source));
+    // Whether the antiradiance of some X that the light reaches as well is taken from R.
+    [[nodiscard]] bool plus_must_stay(const PlacedLink& l) {
+        const TopNodes& hidden_by = minus_.sources_to(l.receiver);
+        return std::any_of(hidden_by.begin(), hidden_by.end(),
+                           [&](NodeId x) { return plus_.reach(l.source, x); });
+    }
+    // Whether some S lights both X and R.
+    [[nodiscard]] bool minus_must_stay(const PlacedLink& l) {
+        const TopNodes& lit_by = plus_.sources_to(l.receiver);
+        return std::any_of(lit_by.begin(), lit_by.end(),
+                           [&](NodeId s) { return plus_.reach(s, l.source); });
+    }
+
+    void put_back(const PlacedLink& l) {
+        removed_[l.link] = 0;
+        (is_plus(l) ? plus_ : minus_).add(l);
+        put_back_.push_back(l);
+    }
+    template <typename Test>
+    void put_back_related(const LinkTable& blocked, NodeId node, const Test& must_stay) {
+        for_related(tree_, blocked, node, [&](const PlacedLink& l) {
+            if (removed_[l.link] && must_stay(l)) put_back(l);
         });
     }
-    [[nodiscard]] bool holds(NodeId upper, NodeId lower) const {
-        return upper <= lower && lower < tree_.subtree_end[static_cast<std::size_t>(upper)];
+
+    // What must stay because S -> R, or S -> X, does.
+    void follow_plus(const PlacedLink& stays) {
+        put_back_related(blocked_minus_to_, stays.receiver,
+                         [&](const PlacedLink& l) { return plus_.reach(stays.source, l.source); });
+        const NodeId x = stays.receiver;
+        put_back_related(blocked_minus_from_, x, [&](const PlacedLink& l) {
+            return plus_.reach(stays.source, l.receiver);
+        });
+        put_back_related(blocked_plus_from_, stays.source,
+                         [&](const PlacedLink& l) { return minus_.reach(x, l.receiver); });
+    }
+    // And because X -> R does.
+    void follow_minus(const PlacedLink& stays) {
+        put_back_related(blocked_plus_to_, stays.receiver,
+                         [&](const PlacedLink& l) { return plus_.reach(l.source, stays.source); });
     }
 
     const PatchTree& tree_;
     const LinkSet& links_;
     const std::vector<LinkVisibility>& visibility_;
-    BinSegments segments_;
-    std::vector<Row> rows_;  // of the bin, by receiver
+    std::vector<std::uint8_t>& removed_;  // of other bins as well, which are not touched
+    // Of the bin:
+    LeftLinks plus_, minus_;
+    std::vector<PlacedLink> blocked_plus_, blocked_minus_;
+    LinkTable blocked_plus_from_, blocked_plus_to_;  // by source, by receiver
+    LinkTable blocked_minus_from_, blocked_minus_to_;
+    std::vector<PlacedLink> put_back_;  // whose consequences are still to be found
 };
 
 }  // namespace
@@ -113,11 +262,9 @@ std::vector<std::uint8_t> blocked_and_balanced(const PatchTree& tree, const Link
                                                const std::vector<LinkVisibility>& visibility,
                                                Progress& progress) {
     std::vector<std::uint8_t> removed(links.links.size(), 0);
-    tbb::enumerable_thread_specific<Balance> balances(
-        [&] { return Balance(tree, links, visibility); });
-    parallel_for(static_cast<std::size_t>(links.bins.count()), progress, [&](std::size_t bin) {
-        balances.local().judge_bin(static_cast<int>(bin), removed);
-    });
+    for_each_bin(
+        links, progress, [&] { return Balance(tree, links, visibility, removed); },
+        [](Balance& balance, int bin) { balance.judge_bin(bin); });
     return removed;
 }
 

@@ -31,13 +31,21 @@ struct ClassifyOptions {
     BlockingSides blocking_sides = BlockingSides::kAny;
 };
 
+// In place of a cluster's region.
+inline constexpr RegionId kRegionsOfMembers = -2;
+
 // What the blocking test knows of the scene.
 struct Blockers {
     Blockers(const Scene& scene, const PatchTree& tree);
 
+    struct Place {
+        vec3 center;      // m
+        RegionId region;  // kNone: blocks nothing
+    };
+
     NodeShapes shapes;
     ConvexRegions regions;
-    std::vector<RegionId> region_of;  // #nodes: of patches; kNone: blocks nothing
+    std::vector<Place> places;  // #nodes
 };
 
 // Algorithm 2 for all links, + and -. Candidates for O are the sources of links that end in the
