@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 
 #include "prune/for_each_bin.h"
 #include "prune/link_index.h"
@@ -18,51 +19,55 @@ struct PlacedLink {
 };
 using LinkTable = NodeTable<PlacedLink>;
 
-// visit(link) for the links at all nodes that are related to one.
-template <typename Visit>
-void for_related(const PatchTree& tree, const LinkTable& table, NodeId node, const Visit& visit) {
-    for (NodeId up = tree.parent[static_cast<std::size_t>(node)]; up != kNone;
-         up = tree.parent[static_cast<std::size_t>(up)]) {
-        for (const PlacedLink& l : table.of(up))
+// The tree, with or without its clusters: mostly they have no links.
+struct Relations {
+    const std::vector<NodeId>* parent;
+    const std::vector<NodeId>* subtree_end;
+
+    [[nodiscard]] NodeId above(NodeId n) const { return (*parent)[static_cast<std::size_t>(n)]; }
+    [[nodiscard]] NodeId end(NodeId n) const { return (*subtree_end)[static_cast<std::size_t>(n)]; }
+
+    // visit(link) for the links at all nodes that are related to one.
+    template <typename Visit>
+    void for_related(const LinkTable& table, NodeId node, const Visit& visit) const {
+        for (NodeId up = above(node); up != kNone; up = above(up)) {
+            for (const PlacedLink& l : table.of(up))
+                visit(l);
+        }
+        for (const PlacedLink& l : table.of_nodes(node, end(node)))
             visit(l);
     }
-    const NodeId end = tree.subtree_end[static_cast<std::size_t>(node)];
-    for (const PlacedLink& l : table.of_nodes(node, end))
-        visit(l);
-}
+};
 
 // A set of nodes, of which only those matter that lie under no other: whatever is related to any of
 // them is related to one of these.
 class TopNodes {
 public:
     // nodes: ascending.
-    void assign(const PatchTree& tree, std::span<const NodeId> nodes) {
+    void assign(const Relations& tree, std::span<const NodeId> nodes) {
         nodes_.clear();
         NodeId end = 0;  // in preorder, what lies under a node follows it
         for (const NodeId n : nodes) {
             if (n < end) continue;
             nodes_.push_back(n);
-            end = end_of(tree, n);
+            end = tree.end(n);
         }
     }
-    void add(const PatchTree& tree, NodeId n) {
+    void add(const Relations& tree, NodeId n) {
         const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), n);
-        if (after != nodes_.begin() && n < end_of(tree, *(after - 1))) return;
-        const auto last = std::lower_bound(after, nodes_.end(), end_of(tree, n));
+        if (after != nodes_.begin() && n < tree.end(*(after - 1))) return;
+        const auto last = std::lower_bound(after, nodes_.end(), tree.end(n));
         nodes_.insert(nodes_.erase(after, last), n);
     }
-    [[nodiscard]] bool any_related_to(const PatchTree& tree, NodeId n) const {
+    [[nodiscard]] bool any_related_to(const Relations& tree, NodeId n) const {
         const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), n);
-        return (after != nodes_.end() && *after < end_of(tree, n)) ||
-               (after != nodes_.begin() && n < end_of(tree, *(after - 1)));
+        return (after != nodes_.end() && *after < tree.end(n)) ||
+               (after != nodes_.begin() && n < tree.end(*(after - 1)));
     }
     [[nodiscard]] auto begin() const { return nodes_.begin(); }
     [[nodiscard]] auto end() const { return nodes_.end(); }
 
 private:
-    static NodeId end_of(const PatchTree& tree, NodeId n) {
-        return tree.subtree_end[static_cast<std::size_t>(n)];
-    }
     std::vector<NodeId> nodes_;  // ascending
 };
 
@@ -71,13 +76,18 @@ private:
 class LeftLinks {
 public:
     // Borrows both.
-    LeftLinks(const PatchTree& tree, const std::vector<std::uint8_t>& removed)
-        : tree_(tree), removed_(removed), sources_(tree.size()), is_known_(tree.size(), 0) {}
+    LeftLinks(const Relations& tree, const std::vector<std::uint8_t>& removed)
+        : tree_(tree),
+          removed_(removed),
+          sources_(tree.subtree_end->size()),
+          is_known_(tree.subtree_end->size(), 0) {}
 
-    // for_each as NodeTable::load() has it: all links by receiver, removed or not.
+    // Of one bin from now on; for_each as NodeTable::load() has it: all its links by receiver,
+    // removed or not.
     template <typename ForEach>
-    void load(const ForEach& for_each) {
-        links_.load(tree_.size(), for_each);
+    void load(const Relations& tree, const ForEach& for_each) {
+        tree_ = tree;
+        links_.load(sources_.size(), for_each);
         for (const NodeId n : known_)
             is_known_[static_cast<std::size_t>(n)] = 0;
         known_.clear();
@@ -88,7 +98,7 @@ public:
         const auto r = static_cast<std::size_t>(receiver);
         if (is_known_[r]) return sources_[r];
         scratch_.clear();
-        for_related(tree_, links_, receiver, [&](const PlacedLink& l) {
+        tree_.for_related(links_, receiver, [&](const PlacedLink& l) {
             if (!removed_[l.link]) scratch_.push_back(l.source);
         });
         std::sort(scratch_.begin(), scratch_.end());
@@ -108,16 +118,14 @@ public:
             if (is_known_[static_cast<std::size_t>(n)])
                 sources_[static_cast<std::size_t>(n)].add(tree_, link.source);
         };
-        const auto r = static_cast<std::size_t>(link.receiver);
-        for (NodeId up = tree_.parent[r]; up != kNone;
-             up = tree_.parent[static_cast<std::size_t>(up)])
+        for (NodeId up = tree_.above(link.receiver); up != kNone; up = tree_.above(up))
             add_to(up);
-        for (NodeId n = link.receiver; n < tree_.subtree_end[r]; ++n)
+        for (NodeId n = link.receiver; n < tree_.end(link.receiver); ++n)
             add_to(n);
     }
 
 private:
-    const PatchTree& tree_;
+    Relations tree_;
     const std::vector<std::uint8_t>& removed_;
     LinkTable links_;
     std::vector<TopNodes> sources_;       // #nodes, of those that are known
@@ -131,21 +139,25 @@ private:
 // blocked link, those that break this are put back until none does.
 class Balance {
 public:
-    Balance(const PatchTree& tree, const LinkSet& links,
+    // patches_above: #nodes, each patch's parent where that is one.
+    Balance(const PatchTree& tree, const std::vector<NodeId>& patches_above, const LinkSet& links,
             const std::vector<LinkVisibility>& visibility, std::vector<std::uint8_t>& removed)
         : tree_(tree),
+          patches_above_(patches_above),
           links_(links),
           visibility_(visibility),
           removed_(removed),
-          plus_(tree, removed),
-          minus_(tree, removed) {}
+          relations_{&tree.parent, &tree.subtree_end},
+          plus_(relations_, removed),
+          minus_(relations_, removed) {}
 
     void judge_bin(int bin) {
         if (!load(bin)) return;
-        for (const PlacedLink& l : blocked_plus_) {
+        // By receiver, as neighbours ask for the same.
+        for (const PlacedLink& l : blocked_plus_to_.all()) {
             if (plus_must_stay(l)) put_back(l);
         }
-        for (const PlacedLink& l : blocked_minus_) {
+        for (const PlacedLink& l : blocked_minus_to_.all()) {
             if (minus_must_stay(l)) put_back(l);
         }
         while (!put_back_.empty()) {
@@ -156,48 +168,53 @@ public:
     }
 
 private:
-    // Removes all blocked links; false: there are none.
-    bool load(int bin) {
-        const auto b = static_cast<std::size_t>(bin);
-        blocked_plus_.clear();
-        blocked_minus_.clear();
-        const auto for_each = [&](const auto& visit) {
-            for (SegmentId s = links_.bin_segments[b]; s < links_.bin_segments[b + 1]; ++s) {
-                const Segment& row = links_.segments[s];
-                for (LinkId l = row.begin; l < row.end; ++l)
-                    visit(PlacedLink{links_.links[l].source, row.receiver, l});
+    enum Kind : std::uint8_t { kMinus = 0, kPlus = 1, kBlockedMinus = 2, kBlockedPlus = 3 };
+
+    [[nodiscard]] auto by_receiver(Kind a, Kind b) const {
+        return [this, a, b](const auto& visit) {
+            for (const Kind kind : {a, b}) {
+                for (const PlacedLink& l : all_[kind])
+                    visit(l.receiver, l);
             }
         };
-        for_each([&](const PlacedLink& l) {
-            if (visibility_[l.link] != LinkVisibility::kNone) return;
-            removed_[l.link] = 1;
-            (is_plus(l) ? blocked_plus_ : blocked_minus_).push_back(l);
-        });
-        if (blocked_plus_.empty() && blocked_minus_.empty()) return false;
-        plus_.load([&](const auto& visit) {
-            for_each([&](const PlacedLink& l) {
-                if (is_plus(l)) visit(l.receiver, l);
-            });
-        });
-        minus_.load([&](const auto& visit) {
-            for_each([&](const PlacedLink& l) {
-                if (!is_plus(l)) visit(l.receiver, l);
-            });
-        });
-        index(blocked_plus_, &PlacedLink::source, blocked_plus_from_);
-        index(blocked_plus_, &PlacedLink::receiver, blocked_plus_to_);
-        index(blocked_minus_, &PlacedLink::source, blocked_minus_from_);
-        index(blocked_minus_, &PlacedLink::receiver, blocked_minus_to_);
-        return true;
     }
 
+    // Removes all blocked links; false: there are none.
+    bool load(int bin) {
+        for (std::vector<PlacedLink>& of_kind : all_)
+            of_kind.clear();
+        bool clusters = false;
+        const auto b = static_cast<std::size_t>(bin);
+        for (SegmentId s = links_.bin_segments[b]; s < links_.bin_segments[b + 1]; ++s) {
+            const Segment& row = links_.segments[s];
+            clusters = clusters || tree_.is_cluster(row.receiver);
+            for (LinkId l = row.begin; l < row.end; ++l) {
+                const Link& link = links_.links[l];
+                clusters = clusters || tree_.is_cluster(link.source);
+                removed_[l] = visibility_[l] == LinkVisibility::kNone ? 1 : 0;
+                // Signs and verdicts follow no order: a branch would be guessed wrong.
+                const std::size_t kind = 2 * removed_[l] + (link.form_factor > 0 ? 1U : 0U);
+                all_[kind].push_back({link.source, row.receiver, l});
+            }
+        }
+        if (all_[kBlockedPlus].empty() && all_[kBlockedMinus].empty()) return false;
+
+        relations_.parent = clusters ? &tree_.parent : &patches_above_;
+        plus_.load(relations_, by_receiver(kPlus, kBlockedPlus));
+        minus_.load(relations_, by_receiver(kMinus, kBlockedMinus));
+        index(kBlockedPlus, &PlacedLink::source, blocked_plus_from_);
+        index(kBlockedPlus, &PlacedLink::receiver, blocked_plus_to_);
+        index(kBlockedMinus, &PlacedLink::source, blocked_minus_from_);
+        index(kBlockedMinus, &PlacedLink::receiver, blocked_minus_to_);
+        return true;
+    }
     [[nodiscard]] bool is_plus(const PlacedLink& l) const {
         return links_.links[l.link].form_factor > 0;
     }
 
-    void index(const std::vector<PlacedLink>& blocked, NodeId PlacedLink::*end, LinkTable& table) {
+    void index(Kind kind, NodeId PlacedLink::*end, LinkTable& table) const {
         table.load(tree_.size(), [&](const auto& visit) {
-            for (const PlacedLink& l : blocked)
+            for (const PlacedLink& l : all_[kind])
                 visit(l.*end, l);
         });
     }
@@ -222,7 +239,7 @@ private:
     }
     template <typename Test>
     void put_back_related(const LinkTable& blocked, NodeId node, const Test& must_stay) {
-        for_related(tree_, blocked, node, [&](const PlacedLink& l) {
+        relations_.for_related(blocked, node, [&](const PlacedLink& l) {
             if (removed_[l.link] && must_stay(l)) put_back(l);
         });
     }
@@ -245,12 +262,14 @@ private:
     }
 
     const PatchTree& tree_;
+    const std::vector<NodeId>& patches_above_;
     const LinkSet& links_;
     const std::vector<LinkVisibility>& visibility_;
     std::vector<std::uint8_t>& removed_;  // of other bins as well, which are not touched
     // Of the bin:
+    Relations relations_;
     LeftLinks plus_, minus_;
-    std::vector<PlacedLink> blocked_plus_, blocked_minus_;
+    std::array<std::vector<PlacedLink>, 4> all_;
     LinkTable blocked_plus_from_, blocked_plus_to_;  // by source, by receiver
     LinkTable blocked_minus_from_, blocked_minus_to_;
     std::vector<PlacedLink> put_back_;  // whose consequences are still to be found
@@ -262,8 +281,12 @@ std::vector<std::uint8_t> blocked_and_balanced(const PatchTree& tree, const Link
                                                const std::vector<LinkVisibility>& visibility,
                                                Progress& progress) {
     std::vector<std::uint8_t> removed(links.links.size(), 0);
+    std::vector<NodeId> patches_above = tree.parent;
+    for (NodeId& up : patches_above) {
+        if (up != kNone && tree.is_cluster(up)) up = kNone;
+    }
     for_each_bin(
-        links, progress, [&] { return Balance(tree, links, visibility, removed); },
+        links, progress, [&] { return Balance(tree, patches_above, links, visibility, removed); },
         [](Balance& balance, int bin) { balance.judge_bin(bin); });
     return removed;
 }

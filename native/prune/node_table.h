@@ -28,6 +28,7 @@ public:
         });
     }
 
+    [[nodiscard]] std::span<const Entry> all() const { return entries_; }
     [[nodiscard]] std::span<const Entry> of(NodeId n) const { return of_nodes(n, n + 1); }
     // Of nodes [begin, end): n to tree.subtree_end[n] is a subtree.
     [[nodiscard]] std::span<const Entry> of_nodes(NodeId begin, NodeId end) const {
