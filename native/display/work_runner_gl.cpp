@@ -2,8 +2,8 @@
 #include "display/work_runner_gl.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/stopwatch.h"
 #include "gpu/shader_source.h"
 
 namespace antiradiance {
@@ -83,7 +83,7 @@ gpu::OnGlThread<gpu::Program> WorkRunner::compile(const std::string& shader) con
 // Bindings and uniforms are set each time: the context is others' as well between two slices.
 void WorkRunner::run_slice(Run& run, std::size_t first_item, std::size_t count,
                            std::uint32_t first_place, double pairs) {
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     run.tables.run([&](WorkTables& tables, gpu::GlContext& context) {
         const gpu::Program& program = tables.program();
         tables.bind();
@@ -96,8 +96,7 @@ void WorkRunner::run_slice(Run& run, std::size_t first_item, std::size_t count,
         program.dispatch(count);
         context.finish();
     });
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    pairs_per_second_ = std::clamp(pairs / seconds.count(), pairs_per_second_ / kRateStep,
+    pairs_per_second_ = std::clamp(pairs / watch.lap(), pairs_per_second_ / kRateStep,
                                    pairs_per_second_ * kRateStep);
     run.done_pairs += pairs;
     run.progress.report(run.span.begin + (run.span.end - run.span.begin) *

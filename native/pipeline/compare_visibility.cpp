@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/compare_visibility.h"
 
+#include "base/stopwatch.h"
 #include "links/shortest_links.h"
 #include "pipeline/model.h"
 #include "pipeline/stage_input.h"
-#include "pipeline/stopwatch.h"
 #include "prune/prune.h"
 #include "scene/validate.h"
 #include "solve/mixed_visibility.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/evaluate_rules.h"
 
+#include "base/stopwatch.h"
 #include "pipeline/model.h"
-#include "pipeline/stopwatch.h"
 #include "prune/prune.h"
 #include "prune/ray_visibility.h"
 #include "scene/validate.h"

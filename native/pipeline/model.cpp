@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/stopwatch.h"
 #include "hierarchy/coverage.h"
 #include "hierarchy/growing_tree.h"
 #include "hierarchy/lit_sides.h"
@@ -18,7 +19,6 @@
 #include "links/refine.h"
 #include "links/shortest_links.h"
 #include "links/visibility.h"
-#include "pipeline/stopwatch.h"
 #include "prune/prune.h"
 #include "solve/row_normalisation.h"
 

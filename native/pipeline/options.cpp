@@ -35,28 +35,16 @@ std::vector<EnumItem> pruning_items() {
     return items;
 }
 
-// What a way to visibility makes use of.
-struct VisibilityUse {
-    bool rays;     // that test links
-    bool pruning;  // of links
-};
-
-VisibilityUse use_of(Visibility visibility) {
-    switch (visibility) {
-        case Visibility::kImplicit:
-            return {.rays = false, .pruning = true};
-        case Visibility::kExplicit:
-            return {.rays = true, .pruning = false};
-    }
-    throw std::logic_error("a visibility without a line in use_of()");
+bool tests_links_with_rays(const Options& options) {
+    return options.visibility == Visibility::kExplicit || options.visibility == Visibility::kMixed;
 }
 
-bool tests_links_with_rays(const Options& options) {
-    return use_of(options.visibility).rays;
+bool mixes_visibility(const Options& options) {
+    return options.visibility == Visibility::kMixed;
 }
 
 bool prunes_links(const Options& options) {
-    return use_of(options.visibility).pruning;
+    return options.has_antiradiance();
 }
 
 // The evaluation has all rules, whatever the picture has.
@@ -185,6 +173,7 @@ std::vector<OptionInfo> make_schema() {
                       .soft_min = 0,
                       .soft_max = 1,
                       .precision = 2,
+                      .active = mixes_visibility,
                       .access = access_to<&Options::ray_budget>()});
     schema.push_back({.name = "pruning",
                       .label = "Pruning",

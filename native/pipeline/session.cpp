@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/stopwatch.h"
 #include "pipeline/stages.h"
-#include "pipeline/stopwatch.h"
 #include "scene/validate.h"
 
 namespace antiradiance {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "pipeline/choose_solver.h"
-#include "pipeline/stopwatch.h"
 #include "prune/dark_links.h"
 
 namespace antiradiance {

@@ -47,19 +47,10 @@ vec3 area_vector(std::span<const vec3> loop) {
     return sum;
 }
 
-float largest_extent(const Scene& scene) {
-    vec3 low(1e30F), high(-1e30F);
-    for (const vec3& p : scene.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    return scene.positions.empty() ? 0 : max_component(high - low);
-}
-
 class RegionMaker {
 public:
     explicit RegionMaker(const Scene& scene)
-        : planar_(std::max(kPlanar * largest_extent(scene), 1e-9F)),
+        : planar_(kPlanar * largest_extent(scene)),
           vertices_(planar_),
           shape_of_(scene.triangles.size(), kNone) {
         for (const Polygon& polygon : make_polygons(scene))

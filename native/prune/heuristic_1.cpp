@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prune/heuristic_1.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "prune/for_each_bin.h"
+#include "prune/node_table.h"
 
 namespace antiradiance {
 
@@ -25,41 +24,9 @@ float angle_between(const vec3& unit_a, const vec3& unit_b) {
     return std::acos(std::clamp(glm::dot(unit_a, unit_b), -1.0F, 1.0F));
 }
 
-// - links of one bin by their source.
-class MinusLinks {
-public:
-    struct Entry {
-        LinkId link;
-        SegmentId segment;
-    };
-
-    void load(const LinkSet& links, SegmentId begin, SegmentId end, const KnownLinks& known,
-              std::size_t node_count) {
-        first_.assign(node_count + 1, 0);
-        const auto for_each = [&](const auto& visit) {
-            for (SegmentId s = begin; s < end; ++s) {
-                for (LinkId l = links.segments[s].begin; l < links.segments[s].end; ++l) {
-                    if (links.links[l].form_factor < 0 && (known.gone.empty() || !known.gone[l]))
-                        visit(static_cast<std::size_t>(links.links[l].source), Entry{l, s});
-                }
-            }
-        };
-        for_each([&](std::size_t source, const Entry&) { ++first_[source + 1]; });
-        for (std::size_t n = 0; n < node_count; ++n)
-            first_[n + 1] += first_[n];
-        entries_.resize(first_.back());
-        fill_.assign(first_.begin(), first_.end() - 1);
-        for_each([&](std::size_t source, const Entry& e) { entries_[fill_[source]++] = e; });
-    }
-
-    [[nodiscard]] std::span<const Entry> from(NodeId source) const {
-        const auto n = static_cast<std::size_t>(source);
-        return std::span(entries_).subspan(first_[n], first_[n + 1] - first_[n]);
-    }
-
-private:
-    std::vector<std::uint32_t> first_, fill_;  // #nodes
-    std::vector<Entry> entries_;
+struct FoundLink {
+    LinkId link;
+    SegmentId segment;
 };
 
 class Triples {
@@ -75,9 +42,7 @@ public:
     // Removes links of this bin only, so that bins may run side by side.
     void mark_bin(int bin, RemovedLinks& removed) {
         bin_ = bin;
-        const SegmentId begin = links_.bin_segments[static_cast<std::size_t>(bin)];
-        const SegmentId end = links_.bin_segments[static_cast<std::size_t>(bin) + 1];
-        minus_.load(links_, begin, end, known_, tree_.size());
+        load_minus();
         for (int b = 0; b < links_.bins.count(); ++b) {
             if (!may_lead_to(b)) continue;
             const auto i = static_cast<std::size_t>(b);
@@ -87,6 +52,18 @@ public:
     }
 
 private:
+    void load_minus() {
+        const auto bin = static_cast<std::size_t>(bin_);
+        minus_.load(tree_.size(), [&](const auto& visit) {
+            for (SegmentId s = links_.bin_segments[bin]; s < links_.bin_segments[bin + 1]; ++s) {
+                for (LinkId l = links_.segments[s].begin; l < links_.segments[s].end; ++l) {
+                    if (links_.links[l].form_factor < 0 && !is_gone(l))
+                        visit(links_.links[l].source, FoundLink{l, s});
+                }
+            }
+        });
+    }
+
     // Whether a link in `bin` can be the one to the occluder.
     [[nodiscard]] bool may_lead_to(int bin) const {
         return bin == bin_ || (directions_ == PruneDirections::kText &&
@@ -101,7 +78,7 @@ private:
         for (NodeId n = links_.segments[lit].receiver; n != kNone && !tree_.is_cluster(n);
              n = tree_.parent[static_cast<std::size_t>(n)]) {
             occluders_.push_back(n);
-            any = any || !minus_.from(n).empty();
+            any = any || !minus_.of(n).empty();
         }
         if (!any) return;
         for (LinkId l = links_.segments[lit].begin; l < links_.segments[lit].end; ++l) {
@@ -112,9 +89,9 @@ private:
 
     void mark_behind(NodeId sender, RemovedLinks& removed) const {
         for (std::size_t i = 0; i < occluders_.size(); ++i) {
-            if (minus_.from(occluders_[i]).empty()) continue;
+            if (minus_.of(occluders_[i]).empty()) continue;
             if (known_.visibility.empty() && !fills_bin(sender, i)) return;
-            for (const MinusLinks::Entry& from_occluder : minus_.from(occluders_[i])) {
+            for (const FoundLink& from_occluder : minus_.of(occluders_[i])) {
                 const LinkRange from_sender = links_from(links_, from_occluder.segment, sender);
                 for (LinkId l = from_sender.first; l < from_sender.last; ++l) {
                     if (links_.links[l].form_factor > 0 && !is_gone(l) && is_blocked(l))
@@ -151,7 +128,7 @@ private:
     KnownLinks known_;
     float bin_radius_;  // rad
     int bin_ = 0;
-    MinusLinks minus_;
+    NodeTable<FoundLink> minus_;     // of the bin, by their source
     std::vector<NodeId> occluders_;  // of the segment at hand, from its receiver upwards
 };
 
@@ -161,11 +138,9 @@ RemovedLinks find_blocked_triples(const PatchTree& tree, const LinkSet& links,
                                   PruneDirections directions, const KnownLinks& known,
                                   Progress& progress) {
     RemovedLinks removed(links.links.size(), 0);
-    tbb::enumerable_thread_specific<Triples> triples(
-        [&] { return Triples(tree, links, directions, known); });
-    parallel_for(static_cast<std::size_t>(links.bins.count()), progress, [&](std::size_t bin) {
-        triples.local().mark_bin(static_cast<int>(bin), removed);
-    });
+    for_each_bin(
+        links, progress, [&] { return Triples(tree, links, directions, known); },
+        [&](Triples& triples, int bin) { triples.mark_bin(bin, removed); });
     return removed;
 }
 

@@ -8,6 +8,7 @@
 
 #include "hierarchy/patch_tree.h"
 #include "links/link_set.h"
+#include "prune/node_table.h"
 
 namespace antiradiance {
 
@@ -27,7 +28,9 @@ public:
     LinkIndex(const PatchTree& tree, const LinkSet& links);
 
     // The segments of a receiver, ascending and so by bin.
-    [[nodiscard]] std::span<const SegmentId> segments(NodeId receiver) const;
+    [[nodiscard]] std::span<const SegmentId> segments(NodeId receiver) const {
+        return by_receiver_.of(receiver);
+    }
     [[nodiscard]] SegmentId segment(NodeId receiver, int bin) const;  // kAbsent: no links there
 
     // The + link from source to receiver, which may have several where they touch: visit(LinkId)
@@ -48,7 +51,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::size_t bytes() const;
+    [[nodiscard]] std::size_t bytes() const { return by_receiver_.bytes(); }
 
 private:
     // Links of touching pairs are spread over bins; a little more, as the tree's spheres are
@@ -66,8 +69,7 @@ private:
 
     const PatchTree& tree_;
     const LinkSet& links_;
-    std::vector<SegmentId> by_receiver_;      // #segments
-    std::vector<std::uint32_t> of_receiver_;  // #nodes + 1: into by_receiver_
+    NodeTable<SegmentId> by_receiver_;
 };
 
 // The segments of one bin by receiver, in constant time: a thread's table, loaded bin by bin.

@@ -31,19 +31,28 @@ struct ClassifyOptions {
     BlockingSides blocking_sides = BlockingSides::kAny;
 };
 
+// In place of a cluster's region.
+inline constexpr RegionId kRegionsOfMembers = -2;
+
 // What the blocking test knows of the scene.
 struct Blockers {
     Blockers(const Scene& scene, const PatchTree& tree);
 
+    struct Place {
+        vec3 center;      // m
+        RegionId region;  // kNone: blocks nothing
+    };
+
     NodeShapes shapes;
     ConvexRegions regions;
-    std::vector<RegionId> region_of;  // #nodes: of patches; kNone: blocks nothing
+    std::vector<Place> places;  // #nodes
 };
 
 // Algorithm 2 for all links, + and -. Candidates for O are the sources of links that end in the
 // same bin at R, an ancestor or a child of R: on a mesh of several levels the links of one receiver
 // are spread over them. A candidate stands for its whole convex region. Where S or O is a cluster,
 // each surface of S must be blocked by one of O's; where R is one, its surfaces' corners count.
+// (IMPLICIT renders make no links of clusters: RefineOptions::cluster_links.)
 // #links. Deterministic.
 std::vector<LinkVisibility> classify_links(const PatchTree& tree, const LinkSet& links,
                                            const Blockers& blockers, const ClassifyOptions& options,
@@ -63,7 +72,7 @@ std::vector<std::uint8_t> blocked_and_not_required(const PatchTree& tree, const 
 // In place of algorithm 3: 1 at the blocked links that may go without a change in balance. The
 // antiradiance of X holds the light of all S that reach it; the - link X -> R takes it back from R,
 // where S -> R brought it. So S -> R goes only if no such - link stays, and X -> R only if no such
-// S still reaches X and R; S, X and R with the patches above and below them, in one bin. What -
+// S still reaches X and R; S, X and R with the nodes above and below them, in one bin. What -
 // links do across the border of two bins is not seen, so that the balance is kept for the most
 // part. The largest such set, which is unique. No part of the paper: after algorithm 3 rooms get
 // darker, as - links that are blocked in part take back light that is no longer sent.

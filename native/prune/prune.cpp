@@ -2,9 +2,9 @@
 #include "prune/prune.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
+#include "base/stopwatch.h"
 #include "prune/heuristic_1.h"
 #include "prune/link_visibility.h"
 #include "prune/ray_visibility.h"
@@ -137,14 +137,13 @@ LinkSet remove_links(LinkSet links, std::span<const std::uint8_t> removed) {
 }
 
 PruneResult prune_links(const PruneInput& input, const PruneOptions& options, Progress& progress) {
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     const RemovedLinks removed = find_removed_links(input, options, progress);
     PruneResult result;
     result.links = remove_links(input.links, removed);
     result.removed_radiance = input.links.radiance_count - result.links.radiance_count;
     result.removed_antiradiance = input.links.antiradiance_count - result.links.antiradiance_count;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = watch.lap();
     return result;
 }
 

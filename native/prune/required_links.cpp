@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/enumerable_thread_specific.h>
-
-#include "base/parallel.h"
+#include "prune/for_each_bin.h"
 #include "prune/link_visibility.h"
 
 namespace antiradiance {
@@ -74,11 +72,9 @@ std::vector<std::uint8_t> blocked_and_not_required(const PatchTree& tree, const 
                                                    const std::vector<LinkVisibility>& visibility,
                                                    Progress& progress) {
     std::vector<std::uint8_t> removed(links.links.size(), 0);
-    tbb::enumerable_thread_specific<RequiredLinks> judges(
-        [&] { return RequiredLinks(tree, links, index, visibility); });
-    parallel_for(static_cast<std::size_t>(links.bins.count()), progress, [&](std::size_t bin) {
-        judges.local().judge_bin(static_cast<int>(bin), removed);
-    });
+    for_each_bin(
+        links, progress, [&] { return RequiredLinks(tree, links, index, visibility); },
+        [&](RequiredLinks& required, int bin) { required.judge_bin(bin, removed); });
     return removed;
 }
 

@@ -91,22 +91,6 @@ RTCRay make_ray(const vec3& origin, const vec3& direction, float near, float far
     return ray;
 }
 
-float largest_extent(const Scene& scene) {
-    vec3 low(RayScene::kInfinity);
-    vec3 high(-RayScene::kInfinity);
-    for (const uvec3& triangle : scene.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            low = glm::min(low, scene.positions[triangle[i]]);
-            high = glm::max(high, scene.positions[triangle[i]]);
-        }
-    }
-    // Far from the origin the spacing of floats, not the size, sets what can be told apart.
-    const float offset =
-        scene.triangles.empty() ? 0 : max_component(glm::max(glm::abs(low), glm::abs(high)));
-    const float size = scene.triangles.empty() ? 1 : max_component(high - low);
-    return std::max(size, 0.05F * offset);
-}
-
 }  // namespace
 
 struct RayScene::Impl {

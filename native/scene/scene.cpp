@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace antiradiance {
 
@@ -121,6 +122,20 @@ vec3 Scene::shading_normal_at(TriangleId t, const vec2& barycentric) const {
     const vec3 sum = interpolate(n, barycentric);
     const float length = glm::length(sum);
     return length > 1e-6F ? sum / length : n[0];
+}
+
+float largest_extent(const Scene& scene) {
+    if (scene.triangles.empty()) return 1;
+    vec3 low(std::numeric_limits<float>::max());
+    vec3 high(std::numeric_limits<float>::lowest());
+    for (const uvec3& triangle : scene.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            low = glm::min(low, scene.positions[triangle[i]]);
+            high = glm::max(high, scene.positions[triangle[i]]);
+        }
+    }
+    const float offset = max_component(glm::max(glm::abs(low), glm::abs(high)));
+    return std::max(max_component(high - low), 0.05F * offset);
 }
 
 void add_mesh(Scene& scene, const MeshInput& mesh) {

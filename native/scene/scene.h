@@ -109,6 +109,11 @@ struct Scene {
     }
 };
 
+// m, > 0: the longest edge of the box around all triangles, and no less than a twentieth of its
+// distance from the origin: far from it the spacing of floats, not the size, sets what can be told
+// apart. 1 without triangles.
+[[nodiscard]] float largest_extent(const Scene& scene);
+
 // One mesh on its way into a scene. Arrays are borrowed until add_mesh returns.
 struct MeshInput {
     std::string object_name;

@@ -2,10 +2,10 @@
 #include "solve/cpu_solver.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "hierarchy/push_pull.h"
 #include "solve/convergence.h"
 #include "solve/transport.h"
@@ -28,7 +28,7 @@ public:
         solution.irradiance.assign(tree.size(), vec3(0));
         pull_area_average<vec3>(tree, solution.radiance);
 
-        const auto start = std::chrono::steady_clock::now();
+        Stopwatch watch;
         const Sweep sweep = options.iterations > 0 ? Sweep::kJacobi : Sweep::kFrontToBack;
         ConvergenceControl control(options);
         while (!control.done()) {
@@ -41,8 +41,7 @@ public:
         solution.iterations = control.passes();
         solution.residual = control.residual();
         solution.converged = control.converged();
-        solution.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        solution.seconds = watch.lap();
         for (vec3& e : solution.irradiance)
             e = glm::max(e, vec3(0));
         return solution;

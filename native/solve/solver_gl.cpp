@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <limits>
 
+#include "base/stopwatch.h"
 #include "gpu/gl_thread.h"
 #include "solve/convergence.h"
 #include "solve/transport_device_gl.h"
@@ -19,10 +19,6 @@ using gpu::OnGlThread;
 
 // Device time between two looks at the caller.
 constexpr double kSliceSeconds = 0.05;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 GlSolverConfig fill_defaults(GlSolverConfig config, const gpu::DeviceInfo& device) {
     const auto set = [](auto& value, auto standard) {
@@ -82,7 +78,7 @@ OnGlThread<TransportPrograms>& GlSolver::programs(bool antiradiance, bool cluste
 void GlSolver::run_pass(Device& device, const std::vector<Step>& steps, Progress& progress,
                         const std::function<float(float)>& fraction) {
     for (std::size_t next = 0; next < steps.size();) {
-        const auto start = std::chrono::steady_clock::now();
+        Stopwatch watch;
         double work = 0;
         device.run([&](TransportDevice&, GlContext& context) {
             do {
@@ -93,7 +89,7 @@ void GlSolver::run_pass(Device& device, const std::vector<Step>& steps, Progress
                      work + steps[next].work < kSliceSeconds * work_per_second_);
             context.finish();
         });
-        const double seconds = seconds_since(start);
+        const double seconds = watch.lap();
         seconds_ += seconds;
         // Slices of little work tell more about the driver's overhead than about the rate.
         if (work > 1e5) work_per_second_ = std::clamp(work / seconds, 1e6, 1e11);

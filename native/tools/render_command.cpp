@@ -10,8 +10,8 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "pipeline/session.h"
-#include "pipeline/stopwatch.h"
 #include "tools/obj_scene.h"
 #include "tools/option_flags.h"
 #include "tools/picture_file.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "pipeline/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace antiradiance::bench {
 

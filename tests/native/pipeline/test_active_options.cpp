@@ -43,17 +43,17 @@ std::vector<Case> cases() {
         edit(options);
         result.push_back({std::move(name), options, std::move(inactive)});
     };
-    add("explicit", [](Options&) {}, {"pruning", "pruning_directions", "bin_map_size"});
+    add("explicit", [](Options&) {}, {"ray_budget", "pruning", "pruning_directions", "bin_map_size"});
     add("explicit, antiradiance is shot",
         [](Options& o) { o.shooting_visibility = ShootingVisibility::kAntiradiance; },
-        {"pruning", "pruning_directions"});
+        {"ray_budget", "pruning", "pruning_directions"});
     add("patches",
         [](Options& o) {
             o.visibility = Visibility::kImplicit;
             o.display = DisplayMode::kPatches;
             o.shooting_visibility = ShootingVisibility::kAntiradiance;
         },
-        {"visibility_rays", "pruning_directions", "shooting_level", "shooting_visibility",
+        {"visibility_rays", "ray_budget", "pruning_directions", "shooting_level", "shooting_visibility",
          "shooting_samples", "bin_map_size", "interleave"});
     add("implicit, rays are shot",
         [](Options& o) {
@@ -61,13 +61,21 @@ std::vector<Case> cases() {
             o.pruning = PruneMethod::kHeuristic2;
             o.shooting_visibility = ShootingVisibility::kRays;
         },
-        {"visibility_rays", "pruning_directions", "bin_map_size"});
+        {"visibility_rays", "ray_budget", "pruning_directions", "bin_map_size"});
     add("implicit, heuristic 1",
         [](Options& o) {
             o.visibility = Visibility::kImplicit;
             o.pruning = PruneMethod::kHeuristic2Then1;
         },
-        {"visibility_rays"});
+        {"visibility_rays", "ray_budget"});
+    add("mixed",
+        [](Options& o) {
+            o.visibility = Visibility::kMixed;
+            o.pruning = PruneMethod::kHeuristic1;
+        },
+        {"bin_map_size"});
+    add("discrete", [](Options& o) { o.visibility = Visibility::kDiscrete; },
+        {"visibility_rays", "ray_budget", "pruning", "pruning_directions", "bin_map_size"});
     return result;
 }
 
@@ -95,6 +103,9 @@ void change(Options& options, const OptionInfo& option) {
                              ? static_cast<int>(option.items.size()) - 1
                              : static_cast<int>(option.soft_max);
         option.access.set(options, *i == last ? *i - 1 : last);
+    } else if (const auto* f = std::get_if<float>(&value)) {
+        const auto last = static_cast<float>(option.soft_max);
+        option.access.set(options, *f == last ? static_cast<float>(option.soft_min) : last);
     } else {
         FAIL() << option.name << ": how to change it is to be said here";
     }

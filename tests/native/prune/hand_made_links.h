@@ -7,6 +7,7 @@
 #include <string>
 
 #include "links/build_link_set.h"
+#include "prune/node_shapes.h"
 #include "prune/prune.h"
 #include "scene/ray_scene.h"
 #include "support/scene_builder.h"
@@ -37,6 +38,15 @@ struct HandMadeLinks {
         }
         ADD_FAILURE() << name;
         return kNone;
+    }
+    // The cluster of these two quads and no others.
+    [[nodiscard]] NodeId cluster(const std::string& one, const std::string& other) const {
+        const NodeId a = node(one);
+        const NodeId b = node(other);
+        const NodeId up = tree.parent[static_cast<std::size_t>(a)];
+        EXPECT_EQ(up, tree.parent[static_cast<std::size_t>(b)]) << one << ", " << other;
+        EXPECT_EQ(NodeShapes(tree).members(up).size(), 2U) << one << ", " << other;
+        return up;
     }
     // The leaf of a quad that holds a point.
     [[nodiscard]] NodeId leaf(const std::string& name, const vec3& point) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/random.h"
 #include "hand_made_links.h"
 #include "support/linked_scene.h"
 #include "support/scenes.h"
@@ -171,6 +172,40 @@ TEST(BalancedLinks, AreTheLargestBalancedSet) {
     const auto count = std::count(removed.begin(), removed.end(), 1);
     EXPECT_GT(count, 100);
     EXPECT_LT(count, std::count(visibility.begin(), visibility.end(), LinkVisibility::kNone));
+}
+
+// Links at random between any two nodes, clusters among them, a share of them blocked.
+TEST(BalancedLinks, AreTheLargestBalancedSetOfAnyLinks) {
+    const PatchTree tree = test::front_tree(test::floating_boxes(1), 0.3F);
+    ASSERT_GT(tree.size(), 50U);
+    std::size_t blocked = 0, removed = 0;
+    for (std::uint32_t scene = 0; scene < 100; ++scene) {
+        std::uint32_t state = hash_u32(scene + 1);
+        const auto random = [&](std::size_t count) {
+            return (state = hash_u32(state + 1)) % static_cast<std::uint32_t>(count);
+        };
+        // From a few links, which rarely meet, to so many that few can go.
+        const std::size_t count = 20 + random(200);
+        const std::size_t ends = 10 + random(tree.size() - 10);
+        std::vector<RawLink> raw;
+        for (std::size_t i = 0; i < count; ++i) {
+            raw.push_back({static_cast<NodeId>(random(ends)), static_cast<NodeId>(random(ends)),
+                           random(2) ? 0.01F : -0.01F, static_cast<std::uint16_t>(random(3))});
+        }
+        Progress progress;
+        const LinkSet links = build_link_set(tree, DirectionBins(64), raw, progress);
+        std::vector<LinkVisibility> visibility(links.links.size());
+        const std::size_t share = 2 + random(10);
+        for (LinkVisibility& v : visibility)
+            v = random(share) ? LinkVisibility::kNone : LinkVisibility::kPartial;
+        const auto found = blocked_and_balanced(tree, links, visibility, progress);
+        ASSERT_EQ(found, reference(tree, links, visibility)) << "scene " << scene;
+        blocked += static_cast<std::size_t>(
+            std::count(visibility.begin(), visibility.end(), LinkVisibility::kNone));
+        removed += static_cast<std::size_t>(std::count(found.begin(), found.end(), 1));
+    }
+    EXPECT_GT(removed, blocked / 10);
+    EXPECT_LT(removed, blocked - blocked / 10);
 }
 
 }  // namespace

@@ -125,6 +125,83 @@ TEST(ClassifyLinks, WhatLiesBeyondTheSenderBlocksNothing) {
               LinkVisibility::kPartial);
 }
 
+// Two senders side by side, each hidden from two receivers side by side by an occluder of its own
+// and by no other.
+struct Pairs : HandMadeLinks {
+    Pairs() {
+        add("S1", 20, {-1, -0.5F}, {-0.02F, 0.5F}, true);
+        add("S2", 20, {0.02F, -0.5F}, {1, 0.5F}, true);
+        add("O1", 10, {-0.65F, -0.6F}, {0.15F, 0.6F}, false);
+        add("O2", 10.5F, {-0.15F, -0.6F}, {0.7F, 0.6F}, false);
+        add("R1", 0, {-0.2F, -0.2F}, {-0.01F, 0.2F}, false);
+        add("R2", 0, {0.01F, -0.2F}, {0.2F, 0.2F}, false);
+        make_tree();
+    }
+    // Of a + link from source to receiver, where - links of the occluders end at `at`.
+    [[nodiscard]] LinkVisibility visibility(NodeId source, const std::vector<NodeId>& occluders,
+                                            NodeId receiver, NodeId at) {
+        raw.clear();
+        plus(source, receiver);
+        for (const NodeId o : occluders) {
+            EXPECT_EQ(bin(o, at), bin(source, receiver));
+            minus(o, at);
+        }
+        return visibility_of(*this, source, receiver, Shaft::kFromCorners);
+    }
+    [[nodiscard]] LinkVisibility visibility(NodeId source, const std::vector<NodeId>& occluders,
+                                            NodeId receiver) {
+        return visibility(source, occluders, receiver, receiver);
+    }
+};
+
+TEST(ClassifyLinks, EverySurfaceOfASenderClusterMustBeBlocked) {
+    Pairs made;
+    const NodeId both = made.cluster("S1", "S2");
+    const NodeId o1 = made.node("O1");
+    const NodeId o2 = made.node("O2");
+    const NodeId r = made.node("R1");
+    ASSERT_EQ(made.visibility(made.node("S1"), {o1}, r), LinkVisibility::kNone);
+    ASSERT_EQ(made.visibility(made.node("S2"), {o2}, r), LinkVisibility::kNone);
+    ASSERT_EQ(made.visibility(made.node("S1"), {o2}, r), LinkVisibility::kPartial);
+    ASSERT_EQ(made.visibility(made.node("S2"), {o1}, r), LinkVisibility::kPartial);
+    EXPECT_EQ(made.visibility(both, {o1}, r), LinkVisibility::kPartial);
+    EXPECT_EQ(made.visibility(both, {o2}, r), LinkVisibility::kPartial);
+    EXPECT_EQ(made.visibility(both, {o1, o2}, r), LinkVisibility::kNone);
+}
+
+TEST(ClassifyLinks, EachSurfaceOfAnOccluderClusterMayBlock) {
+    Pairs made;
+    const NodeId occluders = made.cluster("O1", "O2");
+    const NodeId r = made.node("R1");
+    EXPECT_EQ(made.visibility(made.node("S1"), {occluders}, r), LinkVisibility::kNone);
+    EXPECT_EQ(made.visibility(made.node("S2"), {occluders}, r), LinkVisibility::kNone);
+    EXPECT_EQ(made.visibility(made.cluster("S1", "S2"), {occluders}, r), LinkVisibility::kNone);
+}
+
+TEST(ClassifyLinks, EverySurfaceOfAReceiverClusterMustBeBlocked) {
+    Pairs made;
+    const NodeId s = made.node("S1");
+    const NodeId o1 = made.node("O1");
+    const NodeId both = made.cluster("R1", "R2");
+    EXPECT_EQ(made.visibility(s, {o1}, both), LinkVisibility::kNone);
+    // Their links count for each other.
+    EXPECT_EQ(made.visibility(s, {o1}, both, made.node("R1")), LinkVisibility::kNone);
+    EXPECT_EQ(made.visibility(s, {o1}, made.node("R1"), both), LinkVisibility::kNone);
+
+    Pairs narrow;
+    narrow.scene = {};
+    test::add_material(narrow.scene, vec3(0.5F));
+    narrow.add("S1", 20, {-1, -0.5F}, {-0.02F, 0.5F}, true);
+    narrow.add("O1", 10, {-0.65F, -0.6F}, {0.02F, 0.6F}, false);
+    narrow.add("R1", 0, {-0.2F, -0.2F}, {-0.01F, 0.2F}, false);
+    narrow.add("R2", 0, {0.01F, -0.2F}, {0.2F, 0.2F}, false);
+    narrow.make_tree();
+    const NodeId o = narrow.node("O1");
+    ASSERT_EQ(narrow.visibility(narrow.node("S1"), {o}, narrow.node("R1")), LinkVisibility::kNone);
+    EXPECT_EQ(narrow.visibility(narrow.node("S1"), {o}, narrow.cluster("R1", "R2")),
+              LinkVisibility::kPartial);
+}
+
 TEST(Heuristic1, TheOccluderMustFillTheDirection) {
     // Fig. 5, left and centre: 128 bins are .1 sr each, a disk of .36 m at 1 m.
     const Between large(vec2(-0.5F), vec2(0.5F));

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "prune/evaluate.h"
+#include "prune/node_shapes.h"
 #include "prune/ray_visibility.h"
 #include "support/linked_scene.h"
 #include "support/scene_builder.h"
@@ -27,9 +28,11 @@ struct Linked {
     LinkSet links;
     RayScene rays;
 
-    explicit Linked(Scene made, float max_edge = 0.8F)
+    explicit Linked(Scene made, float max_edge = 0.8F, bool clusters = false)
         : scene(std::move(made)),
-          linked(scene, max_edge, {.link_threshold = 0.05F, .least_edge = 0.5F * max_edge}),
+          linked(
+              scene, max_edge,
+              {.link_threshold = 0.05F, .least_edge = 0.5F * max_edge, .cluster_links = clusters}),
           links(linked.sorted()),
           rays(scene) {}
     [[nodiscard]] PruneInput input() const { return {scene, linked.tree, links, rays}; }
@@ -66,19 +69,36 @@ Scene random_room(std::uint32_t seed) {
     return scene;
 }
 
-// Segments between points of both ends that nothing blocks, of `count`. The outermost hundredth of
-// patches is left out: rays start at a distance of their epsilon from surfaces and slip through
-// where one of those is the blocker's foot.
-int free_segments(const Linked& l, NodeId source, NodeId receiver, std::uint32_t count) {
+// Segments that carry light between points of two patches and that nothing blocks, of `count`. The
+// outermost hundredth of patches is left out: rays start at a distance of their epsilon from
+// surfaces and slip through where one of those is the blocker's foot.
+int free_segments_of_patches(const Linked& l, NodeId source, NodeId receiver, std::uint32_t count) {
     const PatchTree& tree = l.linked.tree;
+    const vec3& from_normal = tree.normal[static_cast<std::size_t>(source)];
+    const vec3& to_normal = tree.normal[static_cast<std::size_t>(receiver)];
     int free = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto point = [&](NodeId n, std::uint32_t seed) {
-            const vec2 u = 0.01F + 0.98F * r2_sample(i, hash_combine(seed, i));
-            return tree.patch_point(n, u) +
-                   tree.normal[static_cast<std::size_t>(n)] * (2 * l.rays.epsilon());
+            return tree.patch_point(n, 0.01F + 0.98F * r2_sample(i, hash_combine(seed, i)));
         };
-        if (!l.rays.occluded(point(source, 1), point(receiver, 2))) ++free;
+        const vec3 from = point(source, 1);
+        const vec3 to = point(receiver, 2);
+        const float least = 1e-4F * glm::distance(from, to);  // in one plane they see nothing
+        if (glm::dot(from_normal, to - from) < least || glm::dot(to_normal, from - to) < least)
+            continue;
+        const float offset = 2 * l.rays.epsilon();
+        if (!l.rays.occluded(from + from_normal * offset, to + to_normal * offset)) ++free;
+    }
+    return free;
+}
+
+// Between any two of their surfaces, where they are clusters.
+int free_segments(const Linked& l, NodeId source, NodeId receiver, std::uint32_t count) {
+    const NodeShapes shapes(l.linked.tree);
+    int free = 0;
+    for (const NodeId s : shapes.members(source)) {
+        for (const NodeId r : shapes.members(receiver))
+            free += free_segments_of_patches(l, s, r, count);
     }
     return free;
 }
@@ -115,6 +135,48 @@ TEST(Conservative, RemovesNoLightThatRaysSee) {
         EXPECT_EQ(wrong.seen, 0U) << scene.objects.back().name;
         EXPECT_GT(wrong.removed, 500U) << scene.objects.back().name;
     }
+}
+
+// Of the marked links those with a cluster at an end.
+std::size_t count_at_clusters(const Linked& l, const RemovedLinks& marked) {
+    std::size_t count = 0;
+    for (const Segment& s : l.links.segments) {
+        for (LinkId i = s.begin; i < s.end; ++i) {
+            if (marked[i] && (l.linked.tree.is_cluster(s.receiver) ||
+                              l.linked.tree.is_cluster(l.links.links[i].source)))
+                ++count;
+        }
+    }
+    return count;
+}
+
+// Antiradiance has no clusters, so no render makes the second of these; but the rules take it.
+Linked boxes_without_clusters() {
+    return Linked(test::floating_boxes(3), 0.8F, false);
+}
+Linked boxes_with_clusters() {
+    return Linked(test::floating_boxes(3), 0.8F, true);
+}
+
+TEST(PruneRules, AreGivenNoClustersByDefault) {
+    EXPECT_FALSE(RefineOptions().cluster_links);
+    const Linked l = boxes_without_clusters();
+    EXPECT_EQ(count_at_clusters(l, RemovedLinks(l.links.links.size(), 1)), 0U);
+}
+
+TEST(Conservative, RemovesNoLightOfClustersThatRaysSee) {
+    const Linked l = boxes_with_clusters();
+    const Wrong wrong = removed_plus_links(l);
+    EXPECT_EQ(wrong.seen, 0U);
+    const RemovedLinks removed = l.removed({.method = PruneMethod::kConservative,
+                                            .conservative_keeps = ConservativeKeeps::kAlgorithm3});
+    EXPECT_GT(count_at_clusters(l, removed), 100U);
+}
+
+TEST(PruneRules, TakeLinksOfClusters) {
+    const Linked l = boxes_with_clusters();
+    for (const PruneRule& rule : prune_rules())
+        EXPECT_GT(count_at_clusters(l, l.removed({.method = rule.method})), 0U) << rule.identifier;
 }
 
 TEST(PruneRules, CompareInOrderWithTheStudy) {

@@ -127,5 +127,18 @@ TEST(Scene, texture_multiplies_the_constant) {
     EXPECT_EQ(scene.emission_at(0, {0.5F, 0.25F}), vec3(2, 0, 0));
 }
 
+TEST(Scene, extent_grows_with_the_distance_from_the_origin) {
+    const auto extent_at = [](float x) {
+        Scene scene;
+        test::add_quad(scene, "a", {x, 0, 0}, {2, 0, 0}, {0, 1, 0},
+                       test::add_material(scene, vec3(0.5F)));
+        scene.positions.emplace_back(1e6F, 0, 0);  // of no triangle
+        return largest_extent(scene);
+    };
+    EXPECT_EQ(extent_at(0), 2);
+    EXPECT_EQ(extent_at(-998), 0.05F * 998);
+    EXPECT_EQ(largest_extent({}), 1);
+}
+
 }  // namespace
 }  // namespace antiradiance
