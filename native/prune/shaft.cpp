@@ -5,35 +5,37 @@
 
 namespace antiradiance {
 
-bool ShaftTest::heights(RegionId region, std::span<const vec3> points, float side,
+bool ShaftTest::heights(const ConvexRegion& region, std::span<const vec3> points, float side,
                         std::vector<float>& result) const {
-    result.clear();
+    result.resize(points.size());
     float highest = 0;
-    for (const vec3& p : points) {
-        const float h = side * regions_.height(region, p);
-        if (h < -regions_.tolerance) return false;
+    float lowest = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const float h = side * (glm::dot(region.normal, points[i]) - region.offset);
         highest = std::max(highest, h);
-        result.push_back(std::max(h, 0.0F));
+        lowest = std::min(lowest, h);
+        result[i] = std::max(h, 0.0F);
     }
-    return highest > regions_.tolerance;
+    return lowest >= -regions_.tolerance && highest > regions_.tolerance;
 }
 
 bool ShaftTest::blocks(RegionId region, std::span<const vec3> from, std::span<const vec3> to) {
+    const ConvexRegion& plane = regions_.regions[static_cast<std::size_t>(region)];
     vec3 sum(0);
     for (const vec3& p : from)
         sum += p;
     const float side =
         regions_.height(region, sum / static_cast<float>(from.size())) > 0 ? 1.0F : -1.0F;
-    if (!heights(region, from, side, from_height_) || !heights(region, to, -side, to_height_))
+    if (!heights(plane, from, side, from_height_) || !heights(plane, to, -side, to_height_))
         return false;
 
     const auto distances = [](const vec4& edge, std::span<const vec3> points,
                               std::vector<float>& result) {
-        result.clear();
+        result.resize(points.size());
         float least = 0;
-        for (const vec3& p : points) {
-            result.push_back(glm::dot(edge, vec4(p, 1)));
-            least = std::min(least, result.back());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            result[i] = glm::dot(vec3(edge), points[i]) + edge.w;
+            least = std::min(least, result[i]);
         }
         return least;
     };

@@ -22,7 +22,7 @@ public:
 
 private:
     // Heights of points above the plane, times side; false: not all of them lie there.
-    bool heights(RegionId region, std::span<const vec3> points, float side,
+    bool heights(const ConvexRegion& region, std::span<const vec3> points, float side,
                  std::vector<float>& result) const;
 
     const ConvexRegions& regions_;
