@@ -22,7 +22,7 @@ struct Report {
         std::string method;  // the option's item; NONE where it took no part
         std::size_t removed_radiance = 0, removed_antiradiance = 0;  // links
         double seconds = 0;
-        std::vector<RuleEvaluation> evaluation;  // empty: not asked for
+        PruningTable table;  // of all of IMPLICIT's links; no rules: not asked for
     } pruning;
     struct Direct {
         std::size_t shadow_maps = 0;  // images; 0: shadow rays
