@@ -107,8 +107,9 @@ def test_pruning_of_soda_hall(soda_hall_pruning):
         # The paper's were wrong in 4.6 % (1) and 2.1 % (2) there. Measured 2.0, 1.1 and 1.3 %.
         assert rule["incorrect"] < 0.05 * rule["removed"], name
         assert rule["solution"]["converged"], name
-    # The paper's second rule found 54 % of what it finds when it tests with rays. Measured 80 %.
-    assert rules["HEURISTIC_2"]["removed"] > 0.54 * soda_hall_pruning["explicit"]
+    # Of what is blocked: measured 79 %. The paper's found 53 % of what it does with rays.
+    rule = rules["HEURISTIC_2"]
+    assert rule["removed"] - rule["incorrect"] > 0.53 * rule["explicit"]
 
 
 def test_conservative_pruning_of_soda_hall_keeps_the_light(soda_hall_pruning):
