@@ -5,6 +5,8 @@
 
 namespace antiradiance {
 
+namespace {
+
 nlohmann::ordered_json json_of(const SolutionError& error) {
     return {{"relative_rms", error.relative_rms},
             {"bias", error.bias},
@@ -23,6 +25,17 @@ nlohmann::ordered_json json_of(const std::vector<RuleEvaluation>& rules) {
             {"solution", json_of(rule.error)}};
     }
     return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_of(const PruningTable& table) {
+    return {{"patches", table.patches},
+            {"links", table.links},
+            {"explicit", table.explicit_test},
+            {"explicit_seconds", table.explicit_seconds},
+            {"unpruned", json_of(table.unpruned)},
+            {"evaluation", json_of(table.rules)}};
 }
 
 }  // namespace antiradiance

@@ -7,10 +7,9 @@
 
 namespace antiradiance {
 
-// {METHOD: {explicit, removed, incorrect, incorrect_radiance, not_removed, seconds, solution:
-// {relative_rms, bias, largest_leak, converged}}}, a key for each rule. Other tools read these
-// keys.
-[[nodiscard]] nlohmann::ordered_json json_of(const std::vector<RuleEvaluation>& rules);
-[[nodiscard]] nlohmann::ordered_json json_of(const SolutionError& error);
+// {patches, links, explicit, explicit_seconds, unpruned: SOLUTION, evaluation: {METHOD: {explicit,
+// removed, incorrect, incorrect_radiance, not_removed, seconds, solution: SOLUTION}}}, a METHOD for
+// each rule; SOLUTION: {relative_rms, bias, largest_leak, converged}. Other tools read these keys.
+[[nodiscard]] nlohmann::ordered_json json_of(const PruningTable& table);
 
 }  // namespace antiradiance

@@ -18,7 +18,7 @@ std::string Report::to_json() const {
         {"removed_antiradiance", pruning.removed_antiradiance},
         {"removed_dark", pruning.removed_dark},
         {"seconds", pruning.seconds}};
-    if (!pruning.evaluation.empty()) pruning_json["evaluation"] = json_of(pruning.evaluation);
+    if (!pruning.table.rules.empty()) pruning_json.update(json_of(pruning.table));
     const nlohmann::ordered_json json = {
         {"patches", patches},
         {"leaves", leaves},

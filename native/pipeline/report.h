@@ -23,7 +23,7 @@ struct Report {
         std::size_t removed_radiance = 0, removed_antiradiance = 0;  // links
         std::size_t removed_dark = 0;  // after that, that carry nothing in this light
         double seconds = 0;
-        std::vector<RuleEvaluation> evaluation;  // empty: not asked for
+        PruningTable table;  // of all of IMPLICIT's links; no rules: not asked for
     } pruning;
     struct VisibilityTest {
         std::string mode;                                  // the option's item

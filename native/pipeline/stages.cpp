@@ -197,7 +197,7 @@ void run_evaluation(const StageInput& input, StageResults& results, Report::Timi
 }
 
 void describe_evaluation(const StageInput&, const StageResults& results, Report& report) {
-    report.pruning.evaluation = results.pruning_table.rules;
+    report.pruning.table = results.pruning_table;
 }
 
 void forget_evaluation(StageResults& results) {

@@ -82,13 +82,7 @@ std::string to_csv(const PruningTable& table) {
 }
 
 std::string to_json(const PruningTable& table) {
-    const nlohmann::ordered_json json = {{"patches", table.patches},
-                                         {"links", table.links},
-                                         {"explicit", table.explicit_test},
-                                         {"explicit_seconds", table.explicit_seconds},
-                                         {"unpruned", json_of(table.unpruned)},
-                                         {"evaluation", json_of(table.rules)}};
-    return json.dump(2) + "\n";
+    return json_of(table).dump(2) + "\n";
 }
 
 }  // namespace antiradiance

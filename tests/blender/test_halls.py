@@ -89,6 +89,41 @@ def test_soda_hall(soda_hall_pictures, visibility):
     assert block_means(pixels, 4).max(axis=2).min() > 0.01 * pixels.mean()
 
 
+@pytest.fixture(scope="module")
+def soda_hall_pruning(in_blender, soda_hall, tmp_path_factory):
+    """What the report says of pruning; so coarse, and lit along the links, for the sake of time."""
+    folder = tmp_path_factory.mktemp("soda_hall_pruning")
+    coarse = {"max_patch_size": 6.0, "link_threshold": 0.3, "direct_light": "IMPLICIT"}
+    modes = {"EVALUATED": {"evaluate_pruning": True, "display": "PATCHES", **coarse}}
+    reports = in_blender("render_modes.py", soda_hall, 2, folder, json.dumps(modes), timeout=600)
+    return reports["EVALUATED"]["pruning"]
+
+
+def test_pruning_of_soda_hall(soda_hall_pruning):
+    rules = soda_hall_pruning["evaluation"]
+    for name, rule in rules.items():
+        assert rule["explicit"] == soda_hall_pruning["explicit"], name
+        assert rule["removed"] - rule["incorrect"] == rule["explicit"] - rule["not_removed"], name
+        # The paper's were wrong in 4.6 % (1) and 2.1 % (2) there. Measured 2.0, 1.1 and 1.3 %.
+        assert rule["incorrect"] < 0.05 * rule["removed"], name
+        assert rule["solution"]["converged"], name
+    # Of what is blocked: measured 79 %. The paper's found 53 % of what it does with rays.
+    rule = rules["HEURISTIC_2"]
+    assert rule["removed"] - rule["incorrect"] > 0.53 * rule["explicit"]
+
+
+def test_conservative_pruning_of_soda_hall_keeps_the_light(soda_hall_pruning):
+    rule = soda_hall_pruning["evaluation"]["CONSERVATIVE"]
+    assert rule["removed"] > 0.1 * soda_hall_pruning["explicit"]
+    # Measured 36 of 448,311: links past an edge that a few of 64 rays graze.
+    assert rule["incorrect_radiance"] < 0.0005 * rule["removed"]
+    light, unpruned = rule["solution"], soda_hall_pruning["unpruned"]
+    # No light comes in where a wall kept it out. Measured .46, and .53 before pruning.
+    assert light["largest_leak"] < 1.05 * unpruned["largest_leak"]
+    # Measured .233, and .197 before pruning.
+    assert light["relative_rms"] < 1.3 * unpruned["relative_rms"]
+
+
 def test_soda_hall_stays_out_of_the_repository(run_blender):
     made = run_blender("-P", ROOT / "blend_scenes" / "make_scenes.py", "--", "soda_hall")
     assert made.returncode != 0

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/error.h"
@@ -256,7 +257,7 @@ TEST(Stages, EvaluatingPruningSolvesNothingAgainForThePicture) {
     input.options.max_patch_size = 1;
     Session session;
     const RenderResult plain = render(session, input);
-    EXPECT_TRUE(plain.report.pruning.evaluation.empty());
+    EXPECT_TRUE(plain.report.pruning.table.rules.empty());
     input.options.evaluate_pruning = true;
     const RenderResult evaluated = render(session, input);
     EXPECT_EQ(ran(evaluated.report), "evaluation display");
@@ -264,8 +265,14 @@ TEST(Stages, EvaluatingPruningSolvesNothingAgainForThePicture) {
     std::size_t without_rays = 0;
     for (const PruneRule& rule : prune_rules())
         without_rays += rule.traces_rays ? 0 : 1;
-    ASSERT_EQ(evaluated.report.pruning.evaluation.size(), without_rays);
-    for (const RuleEvaluation& rule : evaluated.report.pruning.evaluation) {
+    const PruningTable& table = evaluated.report.pruning.table;
+    EXPECT_GT(table.unpruned.relative_rms, 0);
+    const auto json = nlohmann::json::parse(evaluated.report.to_json())["pruning"];
+    EXPECT_EQ(json["links"], table.links);
+    EXPECT_EQ(json["unpruned"]["relative_rms"], table.unpruned.relative_rms);
+    EXPECT_EQ(json["evaluation"].size(), without_rays);
+    ASSERT_EQ(table.rules.size(), without_rays);
+    for (const RuleEvaluation& rule : table.rules) {
         const PruneEvaluation& c = rule.counts;
         EXPECT_GT(c.removed, 0U) << rule.method;
         EXPECT_EQ(c.removed - c.incorrect, c.explicit_test - c.not_removed) << rule.method;
