@@ -103,16 +103,17 @@ void run_transport(const StageInput& input, StageResults& results, Report::Timin
     const Options& options = input.options;
     if (model.tree.size() == 0) return;
     Stopwatch watch;
-    progress.begin_stage("Choosing links", 0.6F, 0.65F);
     results.transport =
         make_transport_input(input.scene, model.tree, results.leaf_direct, options.direct_light);
+    const bool mixed = options.visibility == Visibility::kMixed;
+    if (options.remove_dark_links || mixed) progress.begin_stage("Choosing links", 0.6F, 0.65F);
     if (options.remove_dark_links) {
         const RemovedLinks dark =
             find_dark_links(model.tree, results.links(), results.transport.source,
                             results.transport.albedo, progress);
         results.lit_links = remove_links(results.links(), dark);
     }
-    if (options.visibility == Visibility::kMixed) {
+    if (mixed) {
         results.mixed = mix_visibility(results.problem(), model.rays,
                                        {options.ray_budget, visibility_rays(options)}, progress);
         timings.visibility += watch.lap();

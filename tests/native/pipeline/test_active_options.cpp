@@ -43,7 +43,8 @@ std::vector<Case> cases() {
         edit(options);
         result.push_back({std::move(name), options, std::move(inactive)});
     };
-    add("explicit", [](Options&) {}, {"ray_budget", "pruning", "pruning_directions", "bin_map_size"});
+    add("explicit", [](Options&) {},
+        {"ray_budget", "pruning", "pruning_directions", "bin_map_size"});
     add("explicit, antiradiance is shot",
         [](Options& o) { o.shooting_visibility = ShootingVisibility::kAntiradiance; },
         {"ray_budget", "pruning", "pruning_directions"});
@@ -53,8 +54,8 @@ std::vector<Case> cases() {
             o.display = DisplayMode::kPatches;
             o.shooting_visibility = ShootingVisibility::kAntiradiance;
         },
-        {"visibility_rays", "ray_budget", "pruning_directions", "shooting_level", "shooting_visibility",
-         "shooting_samples", "bin_map_size", "interleave"});
+        {"visibility_rays", "ray_budget", "pruning_directions", "shooting_level",
+         "shooting_visibility", "shooting_samples", "bin_map_size", "interleave"});
     add("implicit, rays are shot",
         [](Options& o) {
             o.visibility = Visibility::kImplicit;

@@ -94,6 +94,16 @@ TEST_P(CancelSolve, WhileSolving) {
     }
 }
 
+TEST(Cancel, WhileChoosingLinks) {
+    Options options = heavy(SolverChoice::kCpu);
+    options.visibility = Visibility::kMixed;
+    for (const int nth : {1, 4}) {
+        const auto seconds = seconds_to_stop(options, {"Choosing links", nth});
+        ASSERT_TRUE(seconds) << "the links were chosen before report " << nth;
+        EXPECT_LT(*seconds, kLimit);
+    }
+}
+
 TEST(Cancel, WhileDisplaying) {
     for (const int nth : {1, 5}) {
         Options options;
