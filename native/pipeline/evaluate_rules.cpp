@@ -2,18 +2,14 @@
 #include "pipeline/evaluate_rules.h"
 
 #include "base/stopwatch.h"
-#include "pipeline/model.h"
 #include "prune/prune.h"
 #include "prune/ray_visibility.h"
 #include "scene/validate.h"
 
 namespace antiradiance {
 
-PruningTable evaluate_rules(Scene scene, Options options, const EvaluationRays& rays,
-                            Progress& progress) {
-    validate(scene);
-    options.visibility = Visibility::kImplicit;
-    const Model model = build_model(scene, options, progress);
+PruningTable evaluate_rules(const Scene& scene, const Options& options, const Model& model,
+                            const EvaluationRays& rays, Progress& progress) {
     PruningTable table;
     table.patches = model.tree.leaves.size();
     table.links = model.links.links.size();
@@ -41,6 +37,14 @@ PruningTable evaluate_rules(Scene scene, Options options, const EvaluationRays& 
              reference.error_of(remove_links(model.links, removed), progress)});
     }
     return table;
+}
+
+PruningTable evaluate_rules(Scene scene, Options options, const EvaluationRays& rays,
+                            Progress& progress) {
+    validate(scene);
+    options.visibility = Visibility::kImplicit;
+    const Model model = build_model(scene, options, progress);
+    return evaluate_rules(scene, options, model, rays, progress);
 }
 
 }  // namespace antiradiance

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "pipeline/model.h"
 #include "pipeline/options.h"
 #include "pipeline/solution_error.h"
 #include "prune/evaluate.h"
@@ -34,8 +35,12 @@ struct EvaluationRays {
 };
 
 // Solves the scene with IMPLICIT visibility over all links and over what each rule leaves of them.
-// Options::visibility and pruning are not read. Throws as Session::render() does; `scene` is
-// validated (and cleaned) first.
+// Options::visibility and pruning are not read. `scene` is valid, `implicit` made of it with
+// antiradiance. Throws as Session::render() does.
+[[nodiscard]] PruningTable evaluate_rules(const Scene& scene, const Options& options,
+                                          const Model& implicit, const EvaluationRays& rays,
+                                          Progress& progress);
+// Builds the model first; `scene` is validated (and cleaned) before.
 [[nodiscard]] PruningTable evaluate_rules(Scene scene, Options options, const EvaluationRays& rays,
                                           Progress& progress);
 

@@ -28,6 +28,11 @@ OptionAccess access_to() {
     }
 }
 
+// Mückl & Dachsbacher, section 4.2.
+constexpr std::string_view kNot1Then2 =
+    "heuristic 1 is not offered before heuristic 2: it removes the links to surfaces in between, "
+    "in which heuristic 2 would see what blocks the others. Choose HEURISTIC_2_THEN_1";
+
 std::vector<EnumItem> pruning_items() {
     std::vector<EnumItem> items{{"NONE", "None", "Keep all links"}};
     for (const PruneRule& rule : prune_rules())
@@ -182,6 +187,7 @@ std::vector<OptionInfo> make_schema() {
                           "Implicit or Mixed; rays have done so when it is Explicit",
                       .type = OptionType::kEnum,
                       .items = pruning_items(),
+                      .refused = {{"HEURISTIC_1_THEN_2", kNot1Then2}},
                       .active = &prunes_links,
                       .access = access_to<&Options::pruning>()});
     schema.push_back(
@@ -334,6 +340,8 @@ void set_enum(Options& options, const OptionInfo& option, const OptionValue& val
     const auto item = std::find_if(option.items.begin(), option.items.end(),
                                    [&](const EnumItem& i) { return i.id == *id; });
     if (item == option.items.end()) {
+        if (const auto why = why_refused(option, *id); !why.empty())
+            throw SceneError("Option '" + std::string(option.name) + "': " + std::string(why));
         throw SceneError("Option '" + std::string(option.name) + "' has no item '" + *id +
                          "'; choose one of " +
                          list_of(option.items, [](const EnumItem& i) { return i.id; }));
@@ -387,6 +395,11 @@ std::span<const OptionInfo> option_schema() {
 std::string_view item_of(const Options& options, std::string_view name) {
     const OptionInfo& option = *find_option(name);
     return option.items[static_cast<std::size_t>(std::get<int>(option.access.get(options)))].id;
+}
+
+std::string_view why_refused(const OptionInfo& option, std::string_view item) {
+    const auto found = std::ranges::find(option.refused, item, &RefusedItem::id);
+    return found == option.refused.end() ? std::string_view() : found->why;
 }
 
 void set_option(Options& options, std::string_view name, const OptionValue& value) {

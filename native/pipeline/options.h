@@ -56,6 +56,12 @@ struct EnumItem {
     std::string_view tooltip;
 };
 
+// An item that one may look for, and why there is none.
+struct RefusedItem {
+    std::string_view id;
+    std::string_view why;
+};
+
 enum class OptionType { kEnum, kInt, kFloat, kPath, kBool };
 enum class OptionUnit { kNone, kLength, kFactor };
 
@@ -77,6 +83,7 @@ struct OptionInfo {
     double soft_min = 0, soft_max = 0;  // of a slider
     int precision = 3;                  // digits behind the point, floats
     std::vector<EnumItem> items{};      // enums; an item's index is its value
+    std::vector<RefusedItem> refused{};  // enums
     // Whether the option has an effect while the others are as they are.
     bool (*active)(const Options&) = [](const Options&) { return true; };
     OptionAccess access;
@@ -87,6 +94,9 @@ std::span<const OptionInfo> option_schema();
 
 // The id of the item that an enum option is set to. `name` is in the schema.
 std::string_view item_of(const Options& options, std::string_view name);
+
+// Why an item that an option has not got is refused; empty: for no reason of its own.
+std::string_view why_refused(const OptionInfo& option, std::string_view item);
 
 // Sets one option by name; enums by id. Throws SceneError that lists the valid names, ids or range.
 void set_option(Options& options, std::string_view name, const OptionValue& value);

@@ -190,11 +190,15 @@ void forget_solve(StageResults& results) {
     results.solve_warnings = {};
 }
 
-// Apart from the solution that is shown: the rules are for IMPLICIT links, whatever that has.
+// Apart from the solution that is shown: the rules are for links with antiradiance, whatever it has.
 void run_evaluation(const StageInput& input, StageResults& results, Report::Timings&,
                     Progress& progress) {
     if (!input.options.evaluate_pruning) return;
-    results.pruning_table = evaluate_rules(input.scene, input.options, {}, progress);
+    progress.begin_stage("Evaluating pruning", 0.75F, 0.8F);
+    results.pruning_table =
+        input.options.has_antiradiance()
+            ? evaluate_rules(input.scene, input.options, *results.model, {}, progress)
+            : evaluate_rules(input.scene, input.options, {}, progress);
 }
 
 void describe_evaluation(const StageInput&, const StageResults& results, Report& report) {

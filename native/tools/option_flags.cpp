@@ -2,6 +2,7 @@
 #include "tools/option_flags.h"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -68,6 +69,18 @@ std::vector<std::string> ids_of(const OptionInfo& option) {
     return ids;
 }
 
+// An item in upper or lower case; what is refused with its reason.
+CLI::Validator item_of(const OptionInfo& option) {
+    const CLI::IsMember known(ids_of(option), CLI::ignore_case);
+    const auto check = [known, &option](std::string& id) {
+        std::string upper = id;
+        std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });
+        const std::string_view why = why_refused(option, upper);
+        return why.empty() ? known(id) : std::string(why);
+    };
+    return {check, known.get_description()};
+}
+
 void add_preset_flag(CLI::App& command, Options& options) {
     std::string help =
         "What the settings start from, but for --solver and --report-path; flags change it";
@@ -91,8 +104,7 @@ void add_option_flags(CLI::App& command, Options& options) {
     for (const OptionInfo& option : option_schema()) {
         switch (option.type) {
             case OptionType::kEnum:
-                add<std::string>(command, options, option)
-                    ->transform(CLI::IsMember(ids_of(option), CLI::ignore_case));
+                add<std::string>(command, options, option)->transform(item_of(option));
                 break;
             case OptionType::kInt:
                 add<int>(command, options, option);

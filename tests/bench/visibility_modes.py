@@ -72,9 +72,11 @@ def measure(name, direct_light, report):
 def main():
     options = arguments()
     report = options.result.with_suffix(".report.json")
-    result = {name: measure(name, options.direct_light, report) for name in options.scenes}
+    result = {}
+    for name in options.scenes:
+        result[name] = measure(name, options.direct_light, report)
+        options.result.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     report.unlink()
-    options.result.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
 
 
 main()

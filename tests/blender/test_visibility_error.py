@@ -49,3 +49,21 @@ def test_antiradiance_against_rays_on_the_same_links(errors, scene, mode):
     # Antiradiance is not exact: an error of 0 would mean that a solution was compared with itself.
     assert 0.005 < error["relative_rms"] <= getattr(FLOORS[scene], mode.lower()), str(error)
     assert abs(error["bias"]) < 0.05
+
+
+BUDGETS = (0, 0.1, 0.25, 0.5, 0.75, 1)
+
+
+@pytest.mark.parametrize("scene", ["cornell_box", "two_rooms"])
+def test_mixed_visibility_never_errs_more_with_more_rays(in_blender, scene):
+    """Against EXPLICIT with the same rays; tests/bench/visibility_modes.py has all rooms."""
+    ways = [{"visibility": "MIXED", "ray_budget": budget} for budget in BUDGETS]
+    reference = {"reference_rays": 4, "graded": True, "normalised": True}
+    job = [str(SCENES / f"{scene}.blend"), ways, reference]
+    found, = in_blender("visibility_error.py", json.dumps([job]), timeout=600)
+    errors = [way["relative_rms"] for way in found]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[0] > 0.03
+    assert errors[-1] < 1e-6
+    for budget, way in zip(BUDGETS, found):
+        assert way["rays"] <= budget * found[-1]["rays"] + 1

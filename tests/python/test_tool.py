@@ -228,6 +228,12 @@ def test_wrong_usage(tool, room, arguments):
     assert result.stderr != "" and result.stdout == ""
 
 
+def test_heuristic_1_before_heuristic_2_is_refused(tool, room):
+    result = tool("render", room, "--pruning", "heuristic_1_then_2")
+    assert result.returncode == WRONG_USAGE
+    assert "would see what blocks the others" in result.stderr
+
+
 def test_help(tool):
     result = tool("render", "--help")
     assert result.returncode == DONE

@@ -62,6 +62,12 @@ TEST(Options, SchemaHoldsEveryOptionOnce) {
                                             "report_path"}));
 }
 
+TEST(Options, Heuristic1BeforeHeuristic2IsRefusedWithTheReason) {
+    const std::string error = error_of("pruning", std::string("HEURISTIC_1_THEN_2"));
+    EXPECT_NE(error.find("would see what blocks the others"), std::string::npos) << error;
+    EXPECT_NE(error.find("HEURISTIC_2_THEN_1"), std::string::npos) << error;
+}
+
 TEST(Options, DefaultsLieWithinTheirLimits) {
     const Options options;
     for (const OptionInfo& o : option_schema()) {
