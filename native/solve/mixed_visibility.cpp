@@ -55,7 +55,6 @@ std::vector<RowLight> row_light(const PatchTree& tree, const LinkSet& links,
 // The units of decision, in order of their bins.
 struct Unit {
     NodeId top;
-    std::uint32_t bin;
     std::uint32_t begin, end;  // into Units::rows
 };
 struct Units {
@@ -78,7 +77,7 @@ Units find_units(const PatchTree& tree, const LinkSet& links) {
         for (std::uint32_t i = begin; i < end; ++i) {
             const NodeId receiver = links.segments[result.rows[i]].receiver;
             if (receiver >= unit_end) {
-                result.units.push_back({receiver, bin, i, i});
+                result.units.push_back({receiver, i, i});
                 unit_end = tree.subtree_end[static_cast<std::size_t>(receiver)];
             }
             result.units.back().end = i + 1;
@@ -90,7 +89,7 @@ Units find_units(const PatchTree& tree, const LinkSet& links) {
 // Which units rays decide, within a budget.
 class Choice {
 public:
-    Choice(const LinkSet& links, const Units& units, LinkPairs& pairs)
+    Choice(const LinkSet& links, const Units& units, const LinkPairs& pairs)
         : links_(links), units_(units), pairs_(pairs), wanted_(pairs.pairs.size(), 0) {}
 
     // light: of rows. Returns #rows, 1: explicit.
@@ -106,6 +105,7 @@ public:
             return a.worth != b.worth ? a.worth > b.worth : a.unit < b.unit;
         });
         std::vector<std::uint8_t> is_explicit(links_.segments.size(), 0);
+        if (most_rays == 0) return is_explicit;  // not even what - links alone make up
         for (const Ranked& r : ranked) {
             const Unit& unit = units_.units[r.unit];
             const std::size_t more = rays_for(unit);
