@@ -21,7 +21,7 @@ PruningTable evaluate_rules(Scene scene, Options options, const EvaluationRays& 
 
     Stopwatch watch;
     const RemovedLinks invisible = invisible_links(trace_visibility(
-        model.tree, model.links, model.rays, {.rays_per_link = rays.truth}, progress));
+        scene, model.tree, model.links, model.rays, {.rays_per_link = rays.truth}, progress));
     table.explicit_seconds = watch.lap();
     for (const std::uint8_t gone : invisible)
         table.explicit_test += gone;
