@@ -17,7 +17,7 @@ PruningTable evaluate_rules(const Scene& scene, const Options& options, const Mo
 
     Stopwatch watch;
     const RemovedLinks invisible = invisible_links(trace_visibility(
-        model.tree, model.links, model.rays, {.rays_per_link = rays.truth}, progress));
+        scene, model.tree, model.links, model.rays, {.rays_per_link = rays.truth}, progress));
     table.explicit_seconds = watch.lap();
     for (const std::uint8_t gone : invisible)
         table.explicit_test += gone;

@@ -53,7 +53,7 @@ RemovedLinks conservative(const PruneInput& in, const PruneOptions& options, Pro
 
 std::vector<LinkVisibility> by_rays(const PruneInput& in, const PruneOptions& options,
                                     Progress& progress) {
-    return trace_visibility(in.tree, in.links, in.rays,
+    return trace_visibility(in.scene, in.tree, in.links, in.rays,
                             {options.rays_per_link, options.blocking_sides}, progress);
 }
 
