@@ -79,10 +79,10 @@ struct OptionInfo {
     std::string_view tooltip;  // Blender's style: starts with a capital, no full stop
     OptionType type;
     OptionUnit unit = OptionUnit::kNone;
-    double min = 0, max = 0;            // hard limits
-    double soft_min = 0, soft_max = 0;  // of a slider
-    int precision = 3;                  // digits behind the point, floats
-    std::vector<EnumItem> items{};      // enums; an item's index is its value
+    double min = 0, max = 0;             // hard limits
+    double soft_min = 0, soft_max = 0;   // of a slider
+    int precision = 3;                   // digits behind the point, floats
+    std::vector<EnumItem> items{};       // enums; an item's index is its value
     std::vector<RefusedItem> refused{};  // enums
     // Whether the option has an effect while the others are as they are.
     bool (*active)(const Options&) = [](const Options&) { return true; };

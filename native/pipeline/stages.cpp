@@ -190,7 +190,8 @@ void forget_solve(StageResults& results) {
     results.solve_warnings = {};
 }
 
-// Apart from the solution that is shown: the rules are for links with antiradiance, whatever it has.
+// Apart from the solution that is shown: the rules are for links with antiradiance, whatever it
+// has.
 void run_evaluation(const StageInput& input, StageResults& results, Report::Timings&,
                     Progress& progress) {
     if (!input.options.evaluate_pruning) return;

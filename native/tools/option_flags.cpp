@@ -74,7 +74,8 @@ CLI::Validator item_of(const OptionInfo& option) {
     const CLI::IsMember known(ids_of(option), CLI::ignore_case);
     const auto check = [known, &option](std::string& id) {
         std::string upper = id;
-        std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });
+        std::ranges::transform(upper, upper.begin(),
+                               [](unsigned char c) { return std::toupper(c); });
         const std::string_view why = why_refused(option, upper);
         return why.empty() ? known(id) : std::string(why);
     };
