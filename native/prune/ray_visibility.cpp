@@ -20,6 +20,8 @@ constexpr int kMostHits = 64;              // sides that a segment passes throug
 // How far points stay off their patch's outline, of the rays' epsilon. On the outline itself
 // rounding would decide on which side of a wall that stands there they lie.
 constexpr float kInset = 0.25F;
+// And off its plane: twice the spacing of floats.
+constexpr float kLift = 0.02F;
 
 class Tracer {
 public:
@@ -134,11 +136,13 @@ private:
 
     // From point to point: nothing is left out but the surfaces that hold them.
     [[nodiscard]] bool is_free(const Sample& s, bool facing) const {
-        const vec3 d = s.to.point - s.from.point;
+        const float lift = kLift * rays_.epsilon();
+        const vec3 from = s.from.point + s.from.normal * lift;
+        const vec3 d = s.to.point + s.to.normal * lift - from;
         const float length = glm::length(d);
         float near = 0;
         for (int i = 0; i < kMostHits; ++i) {
-            const RayHit hit = rays_.intersect(s.from.point, d / length, near, length);
+            const RayHit hit = rays_.intersect(from, d / length, near, length);
             if (!hit.hit()) return true;
             if ((!facing || is_lit(hit)) && !holds(hit.triangle, s.from) &&
                 !holds(hit.triangle, s.to))

@@ -168,7 +168,7 @@ TEST(PruneRules, CompareInOrderWithTheStudy) {
         return static_cast<double>(e.incorrect) / static_cast<double>(e.removed);
     };
     EXPECT_EQ(safe.incorrect_radiance, 0U);
-    EXPECT_LE(share(safe), 0.01);
+    EXPECT_LE(share(safe), 0.0001);
     EXPECT_LT(share(safe), share(second));
     EXPECT_LT(share(second), 0.2);
     EXPECT_LT(share(second), share(first));
