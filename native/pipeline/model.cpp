@@ -146,12 +146,12 @@ std::string check_implicit_links(const Scene& scene, const GrowingTree& tree,
     char millions[32];
     std::snprintf(millions, sizeof(millions), "%.0f million", links / 1e6);
     const std::string what =
-        "Visibility " + std::string(item_of(options, "visibility")) + " links each of " +
+        "Visibility " + std::string(label_of(options, "visibility")) + " links each of " +
         std::to_string(tree.surfaces().size()) + " surfaces, most of them of '" +
         object_of_most(scene, tree.surfaces()) + "', with every other: at least " + millions +
         " links, " + gibibytes(links * kBytesPerLink) + " of memory";
     const std::string cure =
-        ". Set Visibility to EXPLICIT, which links groups of surfaces, or simplify the object";
+        ". Set Visibility to Explicit, which links groups of surfaces, or simplify the object";
     if (links > static_cast<double>(refine.most_links)) {
         throw SceneError(what + "; " +
                          gibibytes(static_cast<double>(refine.most_links) * kBytesPerLink) +

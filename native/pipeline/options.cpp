@@ -374,6 +374,11 @@ auto find_option(std::string_view name) {
                         [&](const OptionInfo& o) { return o.name == name; });
 }
 
+const EnumItem& set_item(const Options& options, std::string_view name) {
+    const OptionInfo& option = *find_option(name);
+    return option.items[static_cast<std::size_t>(std::get<int>(option.access.get(options)))];
+}
+
 }  // namespace
 
 DisplayOptions Options::resolved_display() const {
@@ -393,8 +398,11 @@ std::span<const OptionInfo> option_schema() {
 }
 
 std::string_view item_of(const Options& options, std::string_view name) {
-    const OptionInfo& option = *find_option(name);
-    return option.items[static_cast<std::size_t>(std::get<int>(option.access.get(options)))].id;
+    return set_item(options, name).id;
+}
+
+std::string_view label_of(const Options& options, std::string_view name) {
+    return set_item(options, name).label;
 }
 
 std::string_view why_refused(const OptionInfo& option, std::string_view item) {

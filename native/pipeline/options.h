@@ -92,8 +92,9 @@ struct OptionInfo {
 // In display order. Defaults are read from a default-constructed Options.
 std::span<const OptionInfo> option_schema();
 
-// The id of the item that an enum option is set to. `name` is in the schema.
+// The item that an enum option is set to: its id, and what artists see. `name` is in the schema.
 std::string_view item_of(const Options& options, std::string_view name);
+std::string_view label_of(const Options& options, std::string_view name);
 
 // Why an item that an option has not got is refused; empty: for no reason of its own.
 std::string_view why_refused(const OptionInfo& option, std::string_view item);

@@ -56,5 +56,5 @@ def test_preset_of_an_artist(cases):
 
 def test_panels_grey_out_what_has_no_effect(cases):
     greyed = {preset: set(names) for preset, names in cases["greyed_out"].items()}
-    assert greyed["FINAL"] == {"pruning", "pruning_directions", "bin_map_size"}
-    assert greyed["PAPER"] == {"visibility_rays"}
+    assert greyed["FINAL"] == {"ray_budget", "pruning", "pruning_directions", "bin_map_size"}
+    assert greyed["PAPER"] == {"visibility_rays", "ray_budget"}
