@@ -48,4 +48,19 @@ LinkPairs pair_links(const PatchTree& tree, const LinkSet& links) {
     return result;
 }
 
+std::vector<std::uint8_t> weigh_links(LinkSet& links, const LinkPairs& pairs,
+                                      std::span<const float> visibility,
+                                      std::span<const std::uint8_t> rows) {
+    std::vector<std::uint8_t> gone(links.links.size(), 0);
+    for (std::size_t s = 0; s < links.segments.size(); ++s) {
+        if (!rows.empty() && !rows[s]) continue;
+        for (std::uint32_t l = links.segments[s].begin; l < links.segments[s].end; ++l) {
+            const std::uint32_t pair = pairs.of_link[l];
+            links.links[l].form_factor *= pair == kNoPair ? 0.0F : visibility[pair];
+            gone[l] = links.links[l].form_factor == 0;
+        }
+    }
+    return gone;
+}
+
 }  // namespace antiradiance

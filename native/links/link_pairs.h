@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hierarchy/patch_tree.h"
@@ -20,5 +21,12 @@ struct LinkPairs {
 };
 
 [[nodiscard]] LinkPairs pair_links(const PatchTree& tree, const LinkSet& links);
+
+// Operator G's rows: + links times the visibility of their pair (0..1, #pairs); returns what is
+// left of no use there, - links and occluded ones.  // #links, 1: goes
+// rows: #segments, 1: weighed; empty: all.
+[[nodiscard]] std::vector<std::uint8_t> weigh_links(LinkSet& links, const LinkPairs& pairs,
+                                                    std::span<const float> visibility,
+                                                    std::span<const std::uint8_t> rows = {});
 
 }  // namespace antiradiance

@@ -83,13 +83,8 @@ ExplicitLinks explicit_links(const Model& implicit, const VisibilityRays& rays,
     const std::vector<float> visibility =
         trace_pairs(implicit.tree, implicit.rays, pairs.pairs, progress);
     LinkSet links = implicit.links;
-    RemovedLinks blocked(links.links.size(), 1);
-    for (std::size_t l = 0; l < blocked.size(); ++l) {
-        if (pairs.of_link[l] == kNoPair) continue;
-        links.links[l].form_factor *= visibility[pairs.of_link[l]];
-        blocked[l] = links.links[l].form_factor == 0;
-    }
-    result.links = remove_links(std::move(links), blocked);
+    const RemovedLinks gone = weigh_links(links, pairs, visibility);
+    result.links = remove_links(std::move(links), gone);
     return result;
 }
 

@@ -21,10 +21,6 @@ constexpr int kFirstBounces = 4;  // settle which units are bright
 // budgets; .2 and 1 err up to a third more there.
 constexpr double kPlusWorth = 0.4;
 
-float luminance(const vec3& v) {
-    return glm::dot(v, vec3(0.2126F, 0.7152F, 0.0722F));  // Rec. 709
-}
-
 // Light that a row receives, W of luminance.
 struct RowLight {
     double plus = 0, minus = 0;
@@ -259,17 +255,9 @@ MixedVisibility mix_visibility(const TransportProblem& implicit, const RayScene&
     mixed.rays = choice.rays();
     const std::vector<float> visibility = choice.trace(tree, scene, progress);
 
-    RemovedLinks gone(links.links.size(), 0);
-    for (std::size_t s = 0; s < links.segments.size(); ++s) {
-        ++(is_explicit[s] ? mixed.explicit_rows : mixed.implicit_rows);
-        if (!is_explicit[s]) continue;
-        for (std::uint32_t l = links.segments[s].begin; l < links.segments[s].end; ++l) {
-            const std::uint32_t pair = pairs.of_link[l];
-            const float visible = pair == kNoPair ? 0.0F : visibility[pair];
-            links.links[l].form_factor *= visible;
-            gone[l] = visible == 0;
-        }
-    }
+    for (const std::uint8_t by_rays : is_explicit)
+        ++(by_rays ? mixed.explicit_rows : mixed.implicit_rows);
+    const RemovedLinks gone = weigh_links(links, pairs, visibility, is_explicit);
     mixed.row_scale = mixed_row_scales(tree, links, scene, units, is_explicit, light, progress);
     mixed.links = remove_links(std::move(mixed.links), gone);
     return mixed;

@@ -87,7 +87,8 @@ class Bench:
             seconds, cpu_seconds = seconds * factor, cpu_seconds * factor
         else:
             seconds, cpu_seconds, report = self.seconds(case, size)
-        return {"seconds": round(seconds, 3), "cpu_seconds": round(cpu_seconds, 3), "fps": round(1 / seconds, 4), "scaled": scaled,
+        return {"seconds": round(seconds, 3), "cpu_seconds": round(cpu_seconds, 3),
+                "fps": round(1 / seconds, 4), "scaled": scaled,
                 "backend": report["display"]["backend"], "paper_fps": PAPER.get(name)}
 
 

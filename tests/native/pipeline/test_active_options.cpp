@@ -2,7 +2,6 @@
 // OptionInfo::active: which options have an effect, and that the others have none.
 #include <gtest/gtest.h>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -83,11 +82,7 @@ std::vector<Case> cases() {
 Scene office() {
     Scene scene = test::office();
     test::add_point_lamp(scene, vec3(1, 2, 2), vec3(20));
-    scene.has_camera = true;
-    Camera& c = scene.camera;
-    c.to_world = glm::inverse(glm::lookAt(vec3(5.8F, 2, 1.5F), vec3(0, 2, 0.8F), vec3(0, 0, 1)));
-    c.width = c.x1 = 16;
-    c.height = c.y1 = 12;
+    test::add_office_camera(scene, 16, 12);
     return scene;
 }
 

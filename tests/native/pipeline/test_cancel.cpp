@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 #include <set>
 
@@ -23,11 +22,7 @@ constexpr double kLimit = 0.5;  // s, from the wish to the exception
 
 Scene seen_office() {
     Scene scene = test::office();
-    scene.has_camera = true;
-    Camera& c = scene.camera;
-    c.to_world = glm::inverse(glm::lookAt(vec3(5.8F, 2, 1.5F), vec3(0, 2, 0.8F), vec3(0, 0, 1)));
-    c.width = c.x1 = 640;
-    c.height = c.y1 = 480;
+    test::add_office_camera(scene, 640, 480);
     return scene;
 }
 

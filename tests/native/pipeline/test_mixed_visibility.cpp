@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
 #include "pipeline/compare_visibility.h"
@@ -174,12 +173,7 @@ TEST(MixedVisibility, ComposesWithPruningInARender) {
 // Where shadow rays bring the direct light, the links out of a luminous panel carry nothing.
 TEST(DarkLinks, LeaveThePictureAsItIs) {
     Scene scene = test::office();
-    scene.has_camera = true;
-    Camera& camera = scene.camera;
-    camera.to_world =
-        glm::inverse(glm::lookAt(vec3(5.8F, 2, 1.5F), vec3(0, 2, 0.8F), vec3(0, 0, 1)));
-    camera.width = camera.x1 = 24;
-    camera.height = camera.y1 = 18;
+    test::add_office_camera(scene, 24, 18);
     Options options = coarse(Visibility::kImplicit);
     options.display = DisplayMode::kPatches;
     Session session;

@@ -45,12 +45,8 @@ Scene base_scene() {
     area.to_world = glm::translate(mat4(1), vec3(1.5F, 3, 2.1F));
     area.power = vec3(30, 20, 10);
     scene.lamps.push_back(area);
-    scene.has_camera = true;
-    Camera& c = scene.camera;
-    c.to_world = glm::inverse(glm::lookAt(vec3(5.8F, 2, 1.5F), vec3(0, 2, 0.8F), vec3(0, 0, 1)));
-    c.clip_end = 5.7F;  // m, just before the far wall: there is background to see
-    c.width = c.x1 = 24;
-    c.height = c.y1 = 18;
+    test::add_office_camera(scene, 24, 18);
+    scene.camera.clip_end = 5.7F;  // m, just before the far wall: there is background to see
     return scene;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/scenes.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "support/scene_builder.h"
 
 namespace antiradiance::test {
@@ -23,6 +25,15 @@ void add_panel(Scene& scene, const vec3& corner, const vec2& size) {  // its fro
 }
 
 }  // namespace
+
+void add_office_camera(Scene& scene, int width, int height) {
+    scene.has_camera = true;
+    Camera& camera = scene.camera;
+    camera.to_world =
+        glm::inverse(glm::lookAt(vec3(5.8F, 2, 1.5F), vec3(0, 2, 0.8F), vec3(0, 0, 1)));
+    camera.width = camera.x1 = width;
+    camera.height = camera.y1 = height;
+}
 
 Scene office() {
     Scene scene = room({6, 4, 2.7F});

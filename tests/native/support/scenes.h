@@ -12,6 +12,9 @@ namespace antiradiance::test {
 // diverge").
 Scene office();
 
+// A camera in the office's far end that looks along it, down a little.
+void add_office_camera(Scene& scene, int width, int height);
+
 // 8 x 5 x 2.7: a corridor with four rooms behind open doors, two of them with a luminous panel. The
 // partitions meet walls, floor and ceiling without cutting them.
 Scene corridor();
