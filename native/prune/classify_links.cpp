@@ -4,7 +4,7 @@
 
 #include "prune/for_each_bin.h"
 #include "prune/link_visibility.h"
-#include "prune/shaft.h"
+#include "hierarchy/shaft.h"
 
 namespace antiradiance {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "prune/convex_regions.h"
+#include "hierarchy/convex_regions.h"
 #include "prune/link_index.h"
 #include "prune/node_shapes.h"
 

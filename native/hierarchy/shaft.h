@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "prune/convex_regions.h"
+#include "hierarchy/convex_regions.h"
 
 namespace antiradiance {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "prune/convex_regions.h"
+#include "hierarchy/convex_regions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "prune/shaft.h"
+#include "hierarchy/shaft.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "prune/convex_regions.h"
+#include "hierarchy/convex_regions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "hierarchy/surfaces.h"
-#include "prune/vertex_weld.h"
+#include "hierarchy/vertex_weld.h"
 
 namespace antiradiance {
 
