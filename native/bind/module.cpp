@@ -9,5 +9,6 @@ PYBIND11_MODULE(_antiradiance, module) {
     antiradiance::bind_schema(module);
     antiradiance::bind_scene(module);
     antiradiance::bind_session(module);
+    antiradiance::bind_blockers(module);
     antiradiance::bind_difference(module);
 }

@@ -84,6 +84,20 @@ int add_material(Scene& scene, const std::string& name, const py::object& albedo
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
+// named(what): for messages.
+template <typename Named>
+void read_geometry(const py::array& positions, const py::object& matrix, const py::array& triangles,
+                   const Named& named, MeshInput& mesh) {
+    mesh.to_world = to_matrix(matrix, named("matrix"));
+    mesh.positions =
+        reinterpret_cast<const vec3*>(borrow<float>(positions, {kAny, 3}, named("positions")));
+    mesh.position_count = static_cast<std::size_t>(positions.shape(0));
+    const auto* corners = borrow<std::int32_t>(triangles, {kAny, 3}, named("triangles"));
+    mesh.triangles = reinterpret_cast<const uvec3*>(corners);
+    mesh.triangle_count = static_cast<std::size_t>(triangles.shape(0));
+    check_range(corners, 3 * mesh.triangle_count, mesh.position_count, named("triangles"));
+}
+
 int add_mesh_arrays(Scene& scene, const std::string& object_name, const py::array& positions,
                     const py::object& matrix, const py::array& triangles,
                     const py::array& triangle_polygon, const py::array& triangle_material,
@@ -94,15 +108,8 @@ int add_mesh_arrays(Scene& scene, const std::string& object_name, const py::arra
     };
     MeshInput mesh;
     mesh.object_name = object_name;
-    mesh.to_world = to_matrix(matrix, named("matrix"));
-    mesh.positions =
-        reinterpret_cast<const vec3*>(borrow<float>(positions, {kAny, 3}, named("positions")));
-    mesh.position_count = static_cast<std::size_t>(positions.shape(0));
-    const auto* corners = borrow<std::int32_t>(triangles, {kAny, 3}, named("triangles"));
-    mesh.triangles = reinterpret_cast<const uvec3*>(corners);
+    read_geometry(positions, matrix, triangles, named, mesh);
     const py::ssize_t count = triangles.shape(0);
-    mesh.triangle_count = static_cast<std::size_t>(count);
-    check_range(corners, 3 * mesh.triangle_count, mesh.position_count, named("triangles"));
     mesh.triangle_polygon =
         borrow<std::int32_t>(triangle_polygon, {count}, named("triangle_polygon"));
     mesh.triangle_material =
@@ -123,6 +130,18 @@ int add_mesh_arrays(Scene& scene, const std::string& object_name, const py::arra
     }
     add_mesh(scene, mesh);
     return static_cast<int>(scene.objects.size()) - 1;
+}
+
+int add_blocker_arrays(Scene& scene, const std::string& name, const py::array& positions,
+                       const py::object& matrix, const py::array& triangles) {
+    const auto named = [&](const char* what) {
+        return std::string(what) + " of the blocker '" + name + "'";
+    };
+    MeshInput mesh;
+    mesh.object_name = name;
+    read_geometry(positions, matrix, triangles, named, mesh);
+    add_blocker(scene, mesh);
+    return static_cast<int>(scene.blockers.size()) - 1;
 }
 
 int add_lamp(Scene& scene, const std::string& name, const std::string& type,
@@ -202,6 +221,10 @@ void bind_scene(py::module_& module) {
              "triangles (t,3) i32; triangle_polygon (t,) i32; triangle_material (t,) i32, slots; "
              "slot_materials: material of each slot; uv (t,3,2) f32; corner_normals (t,3,3) f32, "
              "object space")
+        .def("add_blocker", &add_blocker_arrays, "name"_a, py::kw_only(), "positions"_a, "matrix"_a,
+             "triangles"_a,
+             "A mesh that is not rendered and cuts every link between patches that crosses it; "
+             "arrays as in add_mesh")
         .def("add_lamp", &add_lamp, "name"_a, py::kw_only(), "type"_a, "matrix"_a, "color"_a,
              "radius"_a = 0.0F, "spot_angle"_a = 0.0F, "spot_blend"_a = 0.0F,
              "spot_cosine"_a = false, "sun_angle"_a = 0.0F, "shape"_a = "RECTANGLE",

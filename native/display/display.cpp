@@ -61,8 +61,15 @@ std::vector<vec3> total_irradiance(const DisplayInput& input) {
     return sum;
 }
 
-SourceLists find_sources(const DisplayInput& input, const DisplayOptions& options,
-                         const GBuffer& buffer, const FragmentGroups& groups, Progress& progress) {
+// Whether what lights a fragment depends on the leaf that it lies on.
+bool lit_by_leaf(const DisplayInput& input) {
+    return input.linked != nullptr || !input.planes.empty();
+}
+
+// Before blocking planes cut any.
+SourceLists find_all_sources(const DisplayInput& input, const DisplayOptions& options,
+                             const GBuffer& buffer, const FragmentGroups& groups,
+                             Progress& progress) {
     const ShootingLevel level = options.shooting_level;
     CutRule rule;
     rule.fronts_only = options.shooting_visibility == ShootingVisibility::kRays;
@@ -70,6 +77,13 @@ SourceLists find_sources(const DisplayInput& input, const DisplayOptions& option
         return linked_sources(input.tree, *input.linked, buffer, groups, level, rule, progress);
     if (level == ShootingLevel::kCut) return cut_sources(input.tree, groups, rule, progress);
     return all_sources(input.tree, level, groups.groups.size());
+}
+
+SourceLists find_sources(const DisplayInput& input, const DisplayOptions& options,
+                         const GBuffer& buffer, const FragmentGroups& groups, Progress& progress) {
+    SourceLists all = find_all_sources(input, options, buffer, groups, progress);
+    if (input.planes.empty()) return all;
+    return uncut_sources(input.tree, input.planes, buffer, groups, all, progress);
 }
 
 // Irradiance of the fragments by the sources of their groups' lists, interleaved over n x n pixels.
@@ -97,7 +111,7 @@ std::vector<vec3> shoot_interleaved(const DisplayInput& input, const GBuffer& bu
 
 std::vector<vec3> shoot_at(const DisplayInput& input, const DisplayOptions& options,
                            const GBuffer& buffer, DisplayBackend& backend, Progress& progress) {
-    const FragmentGroups groups = input.linked
+    const FragmentGroups groups = lit_by_leaf(input)
                                       ? receiver_groups(buffer)
                                       : tile_groups(buffer, eye_of(input.scene.camera),
                                                     std::max(kTileSize, options.interleave));
@@ -133,8 +147,7 @@ std::vector<vec3> shoot_at(const DisplayInput& input, const DisplayOptions& opti
 std::vector<vec3> shot_irradiance(const DisplayInput& input, const DisplayOptions& options,
                                   const GBuffer& buffer, DisplayBackend& backend,
                                   Progress& progress) {
-    // Links are cut for each leaf by itself.
-    if (input.linked) return shoot_at(input, options, buffer, backend, progress);
+    if (lit_by_leaf(input)) return shoot_at(input, options, buffer, backend, progress);
     const SharedReceivers shared = share_receivers(input.tree, buffer);
     return shared.spread(shoot_at(input, options, shared.receivers, backend, progress));
 }
@@ -184,7 +197,7 @@ Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
                      DisplayBackend& backend, Progress& progress) {
     const Mode& mode = find_mode(options.mode);
     // Links are cut for each leaf by itself.
-    const bool by_leaf = mode.by_leaf || input.linked != nullptr;
+    const bool by_leaf = mode.by_leaf || lit_by_leaf(input);
     GBuffer buffer = make_gbuffer(
         {input.scene, input.rays, input.tree, input.direct, input.leaf_direct, input.irradiance,
          by_leaf, input.film_transparent, input.samples_per_axis, options.direct_samples},

@@ -10,6 +10,7 @@
 #include "display/display_backend.h"
 #include "display/display_options.h"
 #include "hierarchy/patch_tree.h"
+#include "links/blocking_planes.h"
 #include "links/link_set.h"
 #include "scene/ray_scene.h"
 #include "solve/direct_light.h"
@@ -27,6 +28,7 @@ struct Picture {
 struct DisplayInput {
     const Scene& scene;  // has a camera
     const RayScene& rays;
+    const BlockingPlanes& planes;  // no patch lights a fragment through them
     const PatchTree& tree;
     const LinkSet& links;       // of the solution
     const LinkSet* linked;      // a fragment is lit by what these link to its leaf; null: by all

@@ -147,6 +147,11 @@ std::vector<NodeId> linked_nodes(const PatchTree& tree, const LinkSet& links,
     return topmost;
 }
 
+// The leaf that all fragments of a group lie on; kNone: none.
+NodeId receiver_of(const GBuffer& buffer, const FragmentGroups& groups, std::size_t group) {
+    return buffer.fragments[groups.order[groups.groups[group].begin]].leaf;
+}
+
 }  // namespace
 
 SourceLists collect_lists(std::size_t group_count, Progress& progress,
@@ -201,7 +206,7 @@ SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GB
     const Cut cut(tree, rule);
     const auto select = [&](std::size_t g, std::vector<NodeId>& list) {
         const FragmentGroup& group = groups.groups[g];
-        const NodeId receiver = buffer.fragments[groups.order[group.begin]].leaf;
+        const NodeId receiver = receiver_of(buffer, groups, g);
         for (const NodeId source : linked_nodes(tree, links, segments, receiver)) {
             if (level == ShootingLevel::kCut) {
                 cut.descend(source, group, list);
@@ -209,6 +214,29 @@ SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GB
                 append_level(tree, source, level, list);
             }
         }
+    };
+    return collect_lists(groups.groups.size(), progress, select);
+}
+
+SourceLists uncut_sources(const PatchTree& tree, const BlockingPlanes& planes,
+                          const GBuffer& buffer, const FragmentGroups& groups,
+                          const SourceLists& lists, Progress& progress) {
+    const auto select = [&](std::size_t g, std::vector<NodeId>& list) {
+        const NodeId receiver = receiver_of(buffer, groups, g);
+        if (receiver == kNone) return;
+        const vec3& to = tree.center[static_cast<std::size_t>(receiver)];
+        const auto append = [&](const auto& self, NodeId source) -> void {
+            const auto n = static_cast<std::size_t>(source);
+            if (tree.is_cluster(source) && planes.near(tree.center[n], tree.radius[n])) {
+                for (NodeId child = source + 1; child < tree.subtree_end[n];
+                     child = tree.subtree_end[static_cast<std::size_t>(child)])
+                    self(self, child);
+            } else if (planes.crossed(tree.center[n], to) == kNone) {
+                list.push_back(source);
+            }
+        };
+        for (const NodeId source : lists.of(g))
+            append(append, source);
     };
     return collect_lists(groups.groups.size(), progress, select);
 }

@@ -10,6 +10,7 @@
 #include "display/display_options.h"
 #include "display/fragment_groups.h"
 #include "hierarchy/patch_tree.h"
+#include "links/blocking_planes.h"
 #include "links/link_set.h"
 
 namespace antiradiance {
@@ -53,6 +54,13 @@ struct CutRule {
                                          const GBuffer& buffer, const FragmentGroups& groups,
                                          ShootingLevel level, const CutRule& rule,
                                          Progress& progress);
+
+// The groups' lists (groups of one leaf each) without what blocking planes part from their
+// receiver, centre from centre as links are cut; a cluster that a plane may cut in two is replaced
+// by what lies below it.
+[[nodiscard]] SourceLists uncut_sources(const PatchTree& tree, const BlockingPlanes& planes,
+                                        const GBuffer& buffer, const FragmentGroups& groups,
+                                        const SourceLists& lists, Progress& progress);
 
 struct NearAndFar {
     SourceLists near, far;

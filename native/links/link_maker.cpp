@@ -116,6 +116,20 @@ void LinkMaker::link(NodeId a, NodeId b, const Verdict& verdict, RefinedLinks& o
     if (verdict.to_a.minus) minus(b, a);
 }
 
+LinkCount LinkMaker::count(NodeId a, NodeId b, const Verdict& verdict) const {
+    LinkCount sum;
+    const auto add = [&](NodeId receiver, const LinkSigns& signs) {
+        if (!signs.any()) return;
+        for_receivers(tree_, receiver, options_.receiver_levels, [&](NodeId) {
+            sum.radiance += signs.plus ? 1 : 0;
+            sum.antiradiance += signs.minus ? 1 : 0;
+        });
+    };
+    add(b, verdict.to_b);
+    add(a, verdict.to_a);
+    return sum;
+}
+
 void LinkMaker::add_links(NodeId source, NodeId receiver, bool minus, bool touching,
                           std::vector<RawLink>& out) const {
     const GrowingNode& s = tree_.node(source);

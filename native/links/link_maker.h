@@ -17,6 +17,9 @@ public:
     // Appends the links that the verdict asks for, and who shares the rays of their visibility.
     void link(NodeId a, NodeId b, const Verdict& verdict, RefinedLinks& out) const;
 
+    // How many those are, if each goes through one bin and none turns out to carry nothing.
+    [[nodiscard]] LinkCount count(NodeId a, NodeId b, const Verdict& verdict) const;
+
 private:
     void add_links(NodeId source, NodeId receiver, bool minus, bool touching,
                    std::vector<RawLink>& out) const;

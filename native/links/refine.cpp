@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "links/refine.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -29,12 +32,41 @@ struct BlockResult {
     RefinedLinks made;
     std::vector<Waiting> waiting;
     std::vector<Pair> stack;
+    std::vector<Pair> cut_stack;  // below a pair that a plane parts
+};
+
+// The corners of a patch, or of a box around a cluster.
+class NodeHull {
+public:
+    explicit NodeHull(const GrowingNode& node)
+        : center_(node.center), count_(static_cast<std::size_t>(node.corner_count)) {
+        if (!node.is_cluster()) {
+            std::copy_n(node.corners.begin(), count_, corners_.begin());
+            return;
+        }
+        count_ = corners_.size();
+        for (std::size_t i = 0; i < count_; ++i) {
+            corners_[i] =
+                center_ + node.radius * vec3(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
+        }
+    }
+    [[nodiscard]] BlockingPlanes::Hull hull() const {
+        return {center_, std::span(corners_).first(count_)};
+    }
+
+private:
+    vec3 center_;
+    std::array<vec3, 8> corners_;
+    std::size_t count_;
 };
 
 class Refiner {
 public:
     Refiner(const GrowingTree& tree, const DirectionBins& bins, const RefineOptions& options)
-        : tree_(tree), oracle_(tree, bins, options), maker_(tree, bins, options) {}
+        : tree_(tree),
+          oracle_(tree, bins, options),
+          maker_(tree, bins, options),
+          planes_(options.planes) {}
 
     // Handles one pair and, through `out.stack`, the pairs that come from it.
     void refine(const Pair& pair, BlockResult& out) const {
@@ -52,6 +84,7 @@ public:
             return;
         }
         const Verdict v = oracle_.decide(p.a, p.b);
+        if (v.action == Verdict::kDrop || drop_separated(p, out)) return;
         switch (v.action) {
             case Verdict::kDrop:
                 return;
@@ -78,21 +111,56 @@ private:
     }
 
     void push_children(NodeId split, const Pair& p, BlockResult& out) const {
-        const GrowingNode& node = tree_.node(split);
-        if (node.is_leaf()) {
+        if (tree_.node(split).is_leaf()) {
             out.waiting.push_back({p, split});
-            return;
+        } else {
+            push_children(split, p, out.stack);
         }
+    }
+
+    void push_children(NodeId split, const Pair& p, std::vector<Pair>& stack) const {
+        const GrowingNode& node = tree_.node(split);
         const NodeId other = split == p.a ? p.b : p.a;
         for (NodeId i = node.child_count; i-- > 0;) {
             const NodeId child = node.first_child + i;
-            out.stack.push_back(split == p.a ? Pair{child, other} : Pair{other, child});
+            stack.push_back(split == p.a ? Pair{child, other} : Pair{other, child});
         }
+    }
+
+    // Whether a plane parts all of one node from all of the other: so it does with what lies below
+    // them, and none of it needs to be refined for the other's sake.
+    bool drop_separated(const Pair& p, BlockResult& out) const {
+        if (planes_ == nullptr || planes_->empty()) return false;
+        const BlockerId plane =
+            planes_->separating(NodeHull(tree_.node(p.a)).hull(), NodeHull(tree_.node(p.b)).hull());
+        if (plane == kNone) return false;
+        out.made.separated.push_back({p.a, p.b, plane, count_links(p, out.cut_stack)});
+        return true;
+    }
+
+    // Of a pair, if none of its leaves is split any more.
+    LinkCount count_links(const Pair& pair, std::vector<Pair>& stack) const {
+        LinkCount sum;
+        stack.push_back(pair);
+        while (!stack.empty()) {
+            const Pair p = stack.back();
+            stack.pop_back();
+            const Verdict v = oracle_.decide(p.a, p.b);
+            if (v.action == Verdict::kDrop) continue;
+            const NodeId split = v.action == Verdict::kSplitB ? p.b : p.a;
+            if (v.action != Verdict::kLink && !tree_.node(split).is_leaf()) {
+                push_children(split, p, stack);
+                continue;
+            }
+            sum += maker_.count(p.a, p.b, v);
+        }
+        return sum;
     }
 
     const GrowingTree& tree_;
     RefineOracle oracle_;
     LinkMaker maker_;
+    const BlockingPlanes* planes_;
 };
 
 // Breadth first until there is enough to share out; in order, so that results are deterministic.
@@ -115,6 +183,7 @@ void append(RefinedLinks& all, const RefinedLinks& block) {
         p.first += offset;
         all.pairs.push_back(p);
     }
+    all.separated.insert(all.separated.end(), block.separated.begin(), block.separated.end());
 }
 
 }  // namespace
@@ -125,10 +194,12 @@ void RefinedLinks::renumber(const std::vector<NodeId>& number) {
         l.receiver = to(l.receiver);
         l.source = to(l.source);
     }
-    for (LinkedPair& p : pairs) {
+    const auto renumber_pair = [&](auto& p) {
         p.a = to(p.a);
         p.b = to(p.b);
-    }
+    };
+    std::ranges::for_each(pairs, renumber_pair);
+    std::ranges::for_each(separated, renumber_pair);
 }
 
 RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins,

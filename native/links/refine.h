@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "hierarchy/growing_tree.h"
+#include "links/blocking_planes.h"
 #include "links/direction_bins.h"
 #include "links/link_options.h"
 
@@ -28,6 +29,8 @@ struct RefineOptions {
     // for the direction of light between patches.
     bool spread_touching = false;
     std::size_t most_links = SIZE_MAX;  // stop with a SceneError beyond
+    // Pairs that a plane parts are dropped before they are refined; null: there are none.
+    const BlockingPlanes* planes = nullptr;
 };
 
 // A directed link before it is sorted; see Link.
@@ -46,9 +49,29 @@ struct LinkedPair {
     std::uint32_t count;
 };
 
+// + and - links.
+struct LinkCount {
+    std::size_t radiance = 0, antiradiance = 0;
+    LinkCount& operator+=(const LinkCount& other) {
+        radiance += other.radiance;
+        antiradiance += other.antiradiance;
+        return *this;
+    }
+    [[nodiscard]] std::size_t total() const { return radiance + antiradiance; }
+};
+
+// Two nodes all of whose links a plane would cut, and how many those are at least: between nodes
+// as fine as they were when the pair was dropped.
+struct SeparatedPair {
+    NodeId a, b;
+    BlockerId plane;
+    LinkCount links;
+};
+
 struct RefinedLinks {
     std::vector<RawLink> links;
     std::vector<LinkedPair> pairs;
+    std::vector<SeparatedPair> separated;
 
     // number: node before -> node after, as GrowingTree::finish gives it.
     void renumber(const std::vector<NodeId>& number);

@@ -115,7 +115,8 @@ inline Verdict RefineOracle::decide_clusters(const GrowingNode& a, const Growing
     const bool lit = options_.antiradiance ? a_receives || b_receives : a_receives && b_receives;
     if (!lit || (a.emits_only && b.emits_only)) return v;
 
-    if (options_.cluster_links && !a.emits_only && !b.emits_only && clusters_are_far(a, b)) {
+    if (options_.cluster_links && !a.emits_only && !b.emits_only && clusters_are_far(a, b) &&
+        !may_be_cut_in_two(a) && !may_be_cut_in_two(b)) {
         v.action = Verdict::kLink;
         v.to_a.plus = v.to_b.plus = true;
         return v;
@@ -127,6 +128,12 @@ inline Verdict RefineOracle::decide_clusters(const GrowingNode& a, const Growing
     }
     v.action = a_larger ? Verdict::kSplitA : Verdict::kSplitB;
     return v;
+}
+
+// A cluster that lies on both sides of a plane: its centre says little of which links cross it.
+bool RefineOracle::may_be_cut_in_two(const GrowingNode& n) const {
+    return n.is_cluster() && options_.planes != nullptr &&
+           options_.planes->near(n.center, n.radius);
 }
 
 bool RefineOracle::clusters_are_far(const GrowingNode& a, const GrowingNode& b) const {

@@ -44,6 +44,7 @@ private:
     [[nodiscard]] bool small_enough(const GrowingNode& a, const GrowingNode& b, const vec3& d,
                                     float d2, bool straddles) const;
     [[nodiscard]] bool clusters_are_far(const GrowingNode& a, const GrowingNode& b) const;
+    [[nodiscard]] bool may_be_cut_in_two(const GrowingNode& n) const;
     [[nodiscard]] bool emits(const GrowingNode& patch) const;
     [[nodiscard]] bool negligible(float exchange, float smaller_area, float eps) const;
     [[nodiscard]] bool both_negligible(const GrowingNode& a, const GrowingNode& b) const;

@@ -28,7 +28,8 @@ WayLinks links_of(const Scene& scene, const Options& way, const Model& model,
             ExplicitLinks tested = explicit_links(model, visibility_rays(way), progress);
             result.links = std::move(tested.links);
             result.rays = tested.rays;
-            result.row_scale = row_scales(model.tree, result.links, {}, model.rays, progress);
+            result.row_scale =
+                row_scales(model.tree, result.links, {}, model.rays, model.planes, progress);
             return result;
         }
         case Visibility::kDiscrete:
@@ -48,7 +49,7 @@ WayLinks links_of(const Scene& scene, const Options& way, const Model& model,
     if (way.visibility == Visibility::kMixed) {
         MixedVisibility mixed =
             mix_visibility(input.problem(model.tree, result.links, model.row_scale), model.rays,
-                           {way.ray_budget, visibility_rays(way)}, progress);
+                           model.planes, {way.ray_budget, visibility_rays(way)}, progress);
         result = {std::move(mixed.links), std::move(mixed.row_scale), mixed.rays};
     }
     return result;

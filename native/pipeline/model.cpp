@@ -189,7 +189,9 @@ VisibilityRays visibility_rays(const Options& options) {
 Model build_model(const Scene& scene, const Options& options, Progress& progress) {
     Stopwatch watch;
     progress.begin_stage("Building the patch hierarchy", 0.02F, 0.1F);
-    Model model{RayScene(scene), {}, {}, {}, {}};
+    Model model{RayScene(scene), {}, {}, {}, {}, {}, {}};
+    model.planes = BlockingPlanes(scene.blockers, model.rays.epsilon());
+    model.cuts.per_plane.resize(scene.blockers.size());
     std::vector<Surface> surfaces = lit_surfaces(scene, model.rays, options, progress);
     if (surfaces.empty()) {
         model.tree.triangle_surface.assign(scene.triangles.size(), {kNone, kNone});
@@ -199,7 +201,8 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     const float patch_size =
         options.max_patch_size > 0 ? options.max_patch_size : automatic_patch_size(surfaces);
     check_memory(scene, surfaces, patch_size);
-    const RefineOptions refine = refine_options(options, patch_size, surfaces.size());
+    RefineOptions refine = refine_options(options, patch_size, surfaces.size());
+    refine.planes = &model.planes;
     GrowingTree growing(std::move(surfaces));
     const std::string burden = check_implicit_links(scene, growing, options, refine);
     growing.split_to(patch_size);
@@ -218,6 +221,11 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     drop_buried(model.tree, refined.links);
     model.hierarchy_seconds += watch.lap();
 
+    model.cuts = cut_by_blockers(scene, model.tree, model.rays, model.planes, refined, progress);
+    model.warnings.insert(model.warnings.end(), model.cuts.warnings.begin(),
+                          model.cuts.warnings.end());
+    watch.lap();
+
     const bool explicit_visibility = options.visibility == Visibility::kExplicit;
     if (explicit_visibility) {
         progress.begin_stage("Testing visibility", 0.25F, 0.4F);
@@ -235,7 +243,8 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     model.links_seconds += watch.lap();
 
     if (explicit_visibility) {
-        model.row_scale = row_scales(model.tree, model.links, {}, model.rays, progress);
+        model.row_scale =
+            row_scales(model.tree, model.links, {}, model.rays, model.planes, progress);
         model.visibility_seconds += watch.lap();
     } else {
         model.row_scale.assign(model.tree.size(), 1);

@@ -9,6 +9,7 @@
 #include "hierarchy/patch_tree.h"
 #include "links/link_set.h"
 #include "links/visibility.h"
+#include "pipeline/blocker_cuts.h"
 #include "pipeline/options.h"
 #include "scene/ray_scene.h"
 
@@ -16,9 +17,11 @@ namespace antiradiance {
 
 struct Model {
     RayScene rays;
+    BlockingPlanes planes;
     PatchTree tree;
     LinkSet links;
     std::vector<float> row_scale;  // #nodes: EXPLICIT's row normalisation, else 1
+    BlockerCuts cuts;
     std::vector<std::string> warnings;
     double hierarchy_seconds = 0;
     double links_seconds = 0;       // refinement, form factors, sorting

@@ -19,6 +19,15 @@ std::string Report::to_json() const {
         {"removed_dark", pruning.removed_dark},
         {"seconds", pruning.seconds}};
     if (!pruning.table.rules.empty()) pruning_json.update(json_of(pruning.table));
+    LinkCount cut;
+    auto planes_json = nlohmann::ordered_json::array();
+    for (const Blockers::Plane& plane : blockers.per_plane) {
+        cut += plane.cut;
+        planes_json.push_back({{"name", plane.name},
+                               {"links_cut", plane.cut.total()},
+                               {"radiance_cut", plane.cut.radiance},
+                               {"antiradiance_cut", plane.cut.antiradiance}});
+    }
     const nlohmann::ordered_json json = {
         {"patches", patches},
         {"leaves", leaves},
@@ -33,6 +42,13 @@ std::string Report::to_json() const {
           {"rays", visibility.rays},
           {"explicit_rows", visibility.explicit_rows},
           {"implicit_rows", visibility.implicit_rows}}},
+        {"blockers",
+         {{"planes", blockers.per_plane.size()},
+          {"links_cut", cut.total()},
+          {"radiance_cut", cut.radiance},
+          {"antiradiance_cut", cut.antiradiance},
+          {"seconds", blockers.seconds},
+          {"per_plane", planes_json}}},
         {"direct", {{"shadow_maps", direct.shadow_maps}, {"bytes", direct.bytes}}},
         {"solve",
          {{"backend", solve.backend},

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "links/refine.h"
 #include "pipeline/evaluate_rules.h"
 
 namespace antiradiance {
@@ -30,6 +31,14 @@ struct Report {
         std::size_t rays = 0;                              // between patches that links join
         std::size_t explicit_rows = 0, implicit_rows = 0;  // links of a receiver in a bin
     } visibility;
+    struct Blockers {
+        struct Plane {
+            std::string name;
+            LinkCount cut;  // links for which it is the first plane on their way
+        };
+        std::vector<Plane> per_plane;
+        double seconds = 0;  // see BlockerCuts
+    } blockers;
     struct Direct {
         std::size_t shadow_maps = 0;  // images; 0: shadow rays
         std::size_t bytes = 0;        // of the images

@@ -96,7 +96,8 @@ ReferenceSolution::ReferenceSolution(const Scene& scene, const Options& options,
     input_ = make_transport_input(scene, model.tree, direct_, options.direct_light);
     const LinkSet links = explicit_links(model, rays.rays, progress).links;
     std::vector<float> row_scale;
-    if (rays.normalised) row_scale = row_scales(model.tree, links, {}, model.rays, progress);
+    if (rays.normalised)
+        row_scale = row_scales(model.tree, links, {}, model.rays, model.planes, progress);
     solution_ = solve(links, row_scale, progress);
 }
 

@@ -70,7 +70,7 @@ auto model_options(const Options& o) {
 
 bool same_model_input(const StageInput& was, const StageInput& is) {
     return model_options(was.options) == model_options(is.options) &&
-           geometry(was.scene) == geometry(is.scene) &&
+           geometry(was.scene) == geometry(is.scene) && was.scene.blockers == is.scene.blockers &&
            same(was.scene.objects, is.scene.objects, &Object::name) &&  // in warnings
            same(was.scene.materials, is.scene.materials, &Material::emits) &&
            same(was.scene.lamps, is.scene.lamps, place);

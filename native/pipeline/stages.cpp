@@ -33,12 +33,16 @@ void run_model(const StageInput& input, StageResults& results, Report::Timings& 
     timings.visibility = model.visibility_seconds;
 }
 
-void describe_model(const StageInput&, const StageResults& results, Report& report) {
+void describe_model(const StageInput& input, const StageResults& results, Report& report) {
     const Model& model = *results.model;
     for (std::size_t n = 0; n < model.tree.size(); ++n) {
         if (!model.tree.is_cluster(static_cast<NodeId>(n))) ++report.patches;
     }
     report.leaves = model.tree.leaves.size();
+    for (std::size_t b = 0; b < model.cuts.per_plane.size(); ++b)
+        report.blockers.per_plane.push_back(
+            {input.scene.blockers[b].name, model.cuts.per_plane[b]});
+    report.blockers.seconds = model.cuts.seconds;
     report.warnings.insert(report.warnings.end(), model.warnings.begin(), model.warnings.end());
 }
 
@@ -114,7 +118,7 @@ void run_transport(const StageInput& input, StageResults& results, Report::Timin
         results.lit_links = remove_links(results.links(), dark);
     }
     if (mixed) {
-        results.mixed = mix_visibility(results.problem(), model.rays,
+        results.mixed = mix_visibility(results.problem(), model.rays, model.planes,
                                        {options.ray_budget, visibility_rays(options)}, progress);
         timings.visibility += watch.lap();
     }
@@ -222,9 +226,9 @@ void run_display(const StageInput& input, StageResults& results, Report::Timings
     progress.begin_stage("Display", 0.75F, 1);
     results.shown = results.display.make_picture(
         input.options.solver,
-        {input.scene, results.model->rays, results.model->tree, results.links(),
-         results.pruned ? &results.pruned->links : nullptr, *results.direct, results.leaf_direct,
-         results.irradiance, results.radiance, input.film_transparent},
+        {input.scene, results.model->rays, results.model->planes, results.model->tree,
+         results.links(), results.pruned ? &results.pruned->links : nullptr, *results.direct,
+         results.leaf_direct, results.irradiance, results.radiance, input.film_transparent},
         input.options.resolved_display(), progress);
     timings.display = watch.lap();
 }

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hierarchy/shaft.h"
 #include "prune/for_each_bin.h"
 #include "prune/link_visibility.h"
-#include "hierarchy/shaft.h"
 
 namespace antiradiance {
 

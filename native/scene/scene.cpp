@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace antiradiance {
@@ -77,6 +78,18 @@ std::array<vec3, 3> world_normals(const std::array<vec3, 3>* object_space,
     return normals;
 }
 
+std::string infinite_matrix(const MeshInput& mesh) {
+    return "Object '" + mesh.object_name +
+           "': its matrix holds NaN or infinite numbers; reset its location, rotation and scale "
+           "(Object > Clear), and check its constraints and drivers";
+}
+
+std::string broken_mesh(const MeshInput& mesh, std::size_t triangles) {
+    return "Object '" + mesh.object_name + "': " + std::to_string(triangles) +
+           " triangles name vertices that do not exist; the mesh is broken, run mesh.validate() on "
+           "it or rebuild it";
+}
+
 }  // namespace
 
 vec4 Texture::sample(const vec2& uv) const {
@@ -145,10 +158,7 @@ void add_mesh(Scene& scene, const MeshInput& mesh) {
     const glm::dmat3 linear(mesh.to_world);
     const double volume = is_finite(mesh.to_world) ? relative_determinant(linear) : 0.0;
     if (!is_finite(mesh.to_world)) {
-        scene.problems.push_back("Object '" + mesh.object_name +
-                                 "': its matrix holds NaN or infinite numbers; reset its location, "
-                                 "rotation and scale (Object > Clear), and check its constraints "
-                                 "and drivers");
+        scene.problems.push_back(infinite_matrix(mesh));
         return;
     }
     if (std::abs(volume) < 1e-9) {
@@ -204,11 +214,24 @@ void add_mesh(Scene& scene, const MeshInput& mesh) {
     scene.polygon_count += polygon_end;
     Object& added = scene.objects.back();
     added.triangle_count = static_cast<TriangleId>(scene.triangles.size()) - added.first_triangle;
-    if (outside > 0) {
-        scene.problems.push_back("Object '" + mesh.object_name + "': " + std::to_string(outside) +
-                                 " triangles name vertices that do not exist; the mesh is broken, "
-                                 "run mesh.validate() on it or rebuild it");
+    if (outside > 0) scene.problems.push_back(broken_mesh(mesh, outside));
+}
+
+void add_blocker(Scene& scene, const MeshInput& mesh) {
+    Blocker& blocker = scene.blockers.emplace_back();
+    blocker.name = mesh.object_name;
+    if (!is_finite(mesh.to_world)) {
+        scene.problems.push_back(infinite_matrix(mesh));
+        return;
     }
+    for (std::size_t i = 0; i < mesh.position_count; ++i)
+        blocker.positions.emplace_back(mesh.to_world * vec4(mesh.positions[i], 1));
+    std::copy_if(mesh.triangles, mesh.triangles + mesh.triangle_count,
+                 std::back_inserter(blocker.triangles), [&](const uvec3& t) {
+                     return std::max({t.x, t.y, t.z}) < mesh.position_count;
+                 });
+    const std::size_t outside = mesh.triangle_count - blocker.triangles.size();
+    if (outside > 0) scene.problems.push_back(broken_mesh(mesh, outside));
 }
 
 }  // namespace antiradiance

@@ -73,6 +73,16 @@ struct Object {
     TriangleId triangle_count = 0;
 };
 
+// A surface that the artist puts where no light can go (Mückl & Dachsbacher, section 4.3): links
+// between patches that cross it are cut. It is not rendered, and direct light goes through it.
+struct Blocker {
+    std::string name;
+    std::vector<vec3> positions;   // m, world space
+    std::vector<uvec3> triangles;  // into positions
+
+    bool operator==(const Blocker&) const = default;
+};
+
 struct Scene {
     // #vertices
     std::vector<vec3> positions;  // m
@@ -89,6 +99,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Lamp> lamps;
+    std::vector<Blocker> blockers;
     Camera camera;
     bool has_camera = false;
     vec3 background{0};                 // radiance seen where no surface is
@@ -134,5 +145,9 @@ struct MeshInput {
 // A slot that holds no material gets a grey one (albedo 0.8, as Blender shows it); a slot number
 // beyond the last means the last, as in Blender.
 void add_mesh(Scene& scene, const MeshInput& mesh);
+
+// Appends the mesh as a blocker; positions and triangles are all that is read. Throws nothing, as
+// add_mesh().
+void add_blocker(Scene& scene, const MeshInput& mesh);
 
 }  // namespace antiradiance

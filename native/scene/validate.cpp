@@ -86,6 +86,7 @@ public:
         check_textures();
         check_materials();
         check_lamps();
+        check_blockers();
         check_camera();
         const bool finite = errors_.empty();
         if (finite) {
@@ -95,9 +96,13 @@ public:
         }
         // Objects that failed are no reason to say that there is nothing to see.
         if (finite && scene_.triangles.empty()) {
-            errors_.emplace_back(
-                "The scene has no faces to render; add a mesh, or make one visible in renders "
-                "(camera icon in the Outliner)");
+            errors_.push_back(
+                scene_.blockers.empty()
+                    ? "The scene has no faces to render; add a mesh, or make one visible in "
+                      "renders (camera icon in the Outliner)"
+                    : "The scene has no faces to render besides those of the blocking plane " +
+                          quoted(scene_.blockers.front().name) +
+                          ", which is not rendered; add a mesh, or clear Blocking Plane of it");
         }
         if (!errors_.empty()) throw SceneError(errors_);
         std::vector<std::string> all = scene_.warnings;
@@ -279,6 +284,40 @@ private:
         } else if (lamp.type == LampType::kArea && lamp.size.x * lamp.size.y <= 0) {
             warnings_.push_back(who + ": its size is 0, so it gives no light; set a size above 0");
             lamp.power = vec3(0);
+        }
+    }
+
+    void check_blockers() {
+        for (Blocker& blocker : scene_.blockers) {
+            const std::string who = "Blocking plane " + quoted(blocker.name);
+            const auto corners = [&](const uvec3& t) {
+                return std::array{blocker.positions[t.x], blocker.positions[t.y],
+                                  blocker.positions[t.z]};
+            };
+            const bool finite = std::ranges::all_of(blocker.triangles, [&](const uvec3& t) {
+                return std::ranges::all_of(corners(t), [](const vec3& p) {
+                    return is_finite(p) && max_component(glm::abs(p)) <= kLargestCoordinate;
+                });
+            });
+            if (!finite) {
+                errors_.push_back(who +
+                                  ": its coordinates are NaN, infinite or more than 1e8 m from the "
+                                  "origin; check its modifiers and its location");
+                continue;
+            }
+            if (blocker.triangles.empty()) {
+                warnings_.push_back(who +
+                                    ": it has no faces and cuts nothing; give it a face, or delete "
+                                    "it");
+                continue;
+            }
+            std::erase_if(blocker.triangles,
+                          [&](const uvec3& t) { return is_degenerate(corners(t)); });
+            if (blocker.triangles.empty()) {
+                warnings_.push_back(who +
+                                    ": its faces have no area and cut nothing; set every scale of "
+                                    "it and of its parents to another value than 0");
+            }
         }
     }
 

@@ -201,8 +201,8 @@ private:
 // what they are of the hemisphere (by less or more the error rises between budgets), and applied by
 // as much as they are of the leaf's light.
 std::vector<float> mixed_row_scales(const PatchTree& tree, const LinkSet& links,
-                                    const RayScene& scene, const Units& units,
-                                    std::span<const std::uint8_t> is_explicit,
+                                    const RayScene& scene, const BlockingPlanes& planes,
+                                    const Units& units, std::span<const std::uint8_t> is_explicit,
                                     std::span<const RowLight> light, Progress& progress) {
     ExplicitShare of_hemisphere(tree.size());
     for (const Unit& unit : units.units) {
@@ -225,7 +225,8 @@ std::vector<float> mixed_row_scales(const PatchTree& tree, const LinkSet& links,
     std::vector<float> share(tree.size(), 0);
     for (std::size_t n = 0; n < tree.size(); ++n)
         share[n] = of_hemisphere.of(n, 0);
-    std::vector<float> scales = row_scales(tree, links, {is_explicit, share}, scene, progress);
+    std::vector<float> scales =
+        row_scales(tree, links, {is_explicit, share}, scene, planes, progress);
     for (std::size_t n = 0; n < tree.size(); ++n)
         scales[n] = 1 + of_light.of(n, share[n]) * share[n] * share[n] * (scales[n] - 1);
     return scales;
@@ -234,7 +235,8 @@ std::vector<float> mixed_row_scales(const PatchTree& tree, const LinkSet& links,
 }  // namespace
 
 MixedVisibility mix_visibility(const TransportProblem& implicit, const RayScene& scene,
-                               const MixedOptions& options, Progress& progress) {
+                               const BlockingPlanes& planes, const MixedOptions& options,
+                               Progress& progress) {
     const PatchTree& tree = implicit.tree;
     MixedVisibility mixed;
     mixed.links = implicit.links;
@@ -258,7 +260,8 @@ MixedVisibility mix_visibility(const TransportProblem& implicit, const RayScene&
     for (const std::uint8_t by_rays : is_explicit)
         ++(by_rays ? mixed.explicit_rows : mixed.implicit_rows);
     const RemovedLinks gone = weigh_links(links, pairs, visibility, is_explicit);
-    mixed.row_scale = mixed_row_scales(tree, links, scene, units, is_explicit, light, progress);
+    mixed.row_scale =
+        mixed_row_scales(tree, links, scene, planes, units, is_explicit, light, progress);
     mixed.links = remove_links(std::move(mixed.links), gone);
     return mixed;
 }

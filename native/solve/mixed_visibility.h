@@ -35,9 +35,10 @@ struct MixedVisibility {
 // cost, after a few bounces with implicit visibility; light on + links counts less than half as
 // much. A larger budget takes the same units and more.
 // With a budget of 0 the links are those of `implicit`; with 1 those of operator G, row
-// normalisation included. implicit.links: of the IMPLICIT mode, pruned or not; without clusters.
+// normalisation included. implicit.links: of the IMPLICIT mode, pruned or not and cut by the
+// planes; without clusters.
 [[nodiscard]] MixedVisibility mix_visibility(const TransportProblem& implicit,
-                                             const RayScene& scene, const MixedOptions& options,
-                                             Progress& progress);
+                                             const RayScene& scene, const BlockingPlanes& planes,
+                                             const MixedOptions& options, Progress& progress);
 
 }  // namespace antiradiance

@@ -17,7 +17,8 @@ constexpr int kFewRays = 32;    // settle a patch in a closed room, where all of
 constexpr int kManyRays = 256;  // where some escape
 
 // Share of a leaf's cosine-weighted hemisphere that ends on surfaces.
-float covered_share(const PatchTree& tree, const RayScene& rays, NodeId leaf) {
+float covered_share(const PatchTree& tree, const RayScene& rays, const BlockingPlanes& planes,
+                    NodeId leaf) {
     const auto n = static_cast<std::size_t>(leaf);
     const std::uint16_t mask = tree.exposed_mask[n];
     if (mask == 0) return 0;
@@ -31,10 +32,10 @@ float covered_share(const PatchTree& tree, const RayScene& rays, NodeId leaf) {
         const auto stratum = static_cast<unsigned>(u.y * 4) * 4 + static_cast<unsigned>(u.x * 4);
         if (!(mask >> stratum & 1U)) continue;
         const vec3 origin = tree.patch_point(leaf, u) + frame.n * (2 * rays.epsilon());
-        const RayHit hit =
-            rays.intersect(origin, frame.to_world(cosine_hemisphere(r2_sample(i, seed + 1))));
+        const vec3 direction = frame.to_world(cosine_hemisphere(r2_sample(i, seed + 1)));
+        const RayHit hit = rays.intersect(origin, direction);
         ++count;
-        if (hit.hit()) ++hits;
+        if (hit.hit() && planes.crossed(origin, origin + direction * hit.distance) == kNone) ++hits;
         if (count == kFewRays && hits < count) wanted = kManyRays;
     }
     return static_cast<float>(hits) / static_cast<float>(count);
@@ -43,7 +44,8 @@ float covered_share(const PatchTree& tree, const RayScene& rays, NodeId leaf) {
 }  // namespace
 
 std::vector<float> row_scales(const PatchTree& tree, const LinkSet& links, const RowSubset& subset,
-                              const RayScene& rays, Progress& progress) {
+                              const RayScene& rays, const BlockingPlanes& planes,
+                              Progress& progress) {
     std::vector<vec3> one(tree.size(), vec3(0));
     for (const NodeId leaf : tree.leaves) {
         if (!tree.emits_only(leaf))
@@ -59,8 +61,8 @@ std::vector<float> row_scales(const PatchTree& tree, const LinkSet& links, const
             const float sum = sums[n].x * kInvPi;
             const float share = subset.share.empty() ? 1.0F : subset.share[n];
             if (tree.emits_only(leaf) || sum <= 0 || share <= 0) continue;
-            scales[n] =
-                std::clamp(share * covered_share(tree, rays, leaf) / sum, kLeastScale, kMostScale);
+            scales[n] = std::clamp(share * covered_share(tree, rays, planes, leaf) / sum,
+                                   kLeastScale, kMostScale);
         }
     });
     return scales;

@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "hierarchy/patch_tree.h"
+#include "links/blocking_planes.h"
 #include "links/link_set.h"
 #include "scene/ray_scene.h"
 
@@ -20,9 +21,11 @@ struct RowSubset {
 
 // The form factors of a receiver must add up to the share of its hemisphere that surfaces cover;
 // centre-to-centre links and a few rays miss that by some percent, which adds up over bounces.
+// What lies behind a blocking plane covers nothing, as no link comes from there.
 // Returns for every leaf (covered share by cosine-weighted rays) / (sum of its + links), clamped to
 // [0.6, 1.5]; 1 at other nodes.  // #nodes
 std::vector<float> row_scales(const PatchTree& tree, const LinkSet& links, const RowSubset& subset,
-                              const RayScene& rays, Progress& progress);
+                              const RayScene& rays, const BlockingPlanes& planes,
+                              Progress& progress);
 
 }  // namespace antiradiance

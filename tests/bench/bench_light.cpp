@@ -70,8 +70,8 @@ void display(benchmark::State& state, const DisplayOptions& options) {
         Progress progress;
         meter.time([&] {
             benchmark::DoNotOptimize(
-                make_picture({room.scene, room.model.rays, room.model.tree, room.model.links,
-                              nullptr, *room.direct, light, light, light},
+                make_picture({room.scene, room.model.rays, room.model.planes, room.model.tree,
+                              room.model.links, nullptr, *room.direct, light, light, light},
                              options, *backend, progress));
         });
     }

@@ -261,6 +261,8 @@ REPORT = {
     "pruning": {"method": str, "removed": int, "removed_radiance": int,
                 "removed_antiradiance": int, "removed_dark": int, "seconds": NUMBER},
     "visibility": {"mode": str, "rays": int, "explicit_rows": int, "implicit_rows": int},
+    "blockers": {"planes": int, "links_cut": int, "radiance_cut": int, "antiradiance_cut": int,
+                 "seconds": NUMBER, "per_plane": list},
     "direct": {"shadow_maps": int, "bytes": int},
     "display": {"mode": str, "backend": str, "renderer": str},
     "stages": dict.fromkeys(["model", "pruning", "direct_light", "transport", "solve",

@@ -24,6 +24,8 @@ REPORT_KEYS = {
     "pruning": {"method", "removed", "removed_radiance", "removed_antiradiance", "removed_dark",
                 "seconds"},
     "visibility": {"mode", "rays", "explicit_rows", "implicit_rows"},
+    "blockers": {"planes", "links_cut", "radiance_cut", "antiradiance_cut", "seconds",
+                 "per_plane"},
     "stages": {"model", "pruning", "direct_light", "transport", "solve", "evaluation", "display"},
     "peak_memory_bytes": None,
     "warnings": None,

@@ -35,6 +35,7 @@ void look_down(Scene& scene, int width, int height, CameraType type = CameraType
 struct Stage {
     Scene scene;
     RayScene rays;
+    BlockingPlanes planes;  // none
     PatchTree tree;
     Progress progress;
     DirectLight direct;
@@ -54,8 +55,8 @@ struct Stage {
     }
     Picture picture(bool transparent = false) {
         const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
-        return make_picture({scene, rays, tree, LinkSet{}, nullptr, direct, irradiance, irradiance,
-                             irradiance, transparent, 4},
+        return make_picture({scene, rays, planes, tree, LinkSet{}, nullptr, direct, irradiance,
+                             irradiance, irradiance, transparent, 4},
                             {.mode = DisplayMode::kPatches}, *backend, progress);
     }
 };

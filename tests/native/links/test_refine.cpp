@@ -203,9 +203,9 @@ TEST(Refine, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Refine, PairsHoldEveryPlusLinkOnce) {
     const LinkedScene scene(furnished_room(), 0.8F, coarse());
-    const auto& [links, pairs] = scene.refined;
+    const std::vector<RawLink>& links = scene.refined.links;
     std::vector<int> held(links.size(), 0);
-    for (const LinkedPair& p : pairs) {
+    for (const LinkedPair& p : scene.refined.pairs) {
         EXPECT_GT(p.count, 0U);
         for (std::uint32_t i = p.first; i < p.first + p.count; ++i) {
             ++held[i];

@@ -29,7 +29,8 @@ Options coarse(Visibility visibility) {
 
 MixedVisibility mix(const LitScene& lit, float budget, const VisibilityRays& rays = {}) {
     Progress progress;
-    return mix_visibility(lit.problem(), lit.model.rays, {budget, rays}, progress);
+    return mix_visibility(lit.problem(), lit.model.rays, lit.model.planes, {budget, rays},
+                          progress);
 }
 
 TEST(MixedVisibility, NoRaysAreImplicit) {
@@ -69,7 +70,7 @@ TEST(MixedVisibility, AllRaysAreExplicit) {
         Progress progress;
         const ExplicitLinks all = explicit_links(lit.model, visibility_rays(options), progress);
         const std::vector<float> row_scale =
-            row_scales(tree, all.links, {}, lit.model.rays, progress);
+            row_scales(tree, all.links, {}, lit.model.rays, lit.model.planes, progress);
         const MixedVisibility mixed = mix(lit, 1, visibility_rays(options));
         EXPECT_EQ(mixed.rays, all.rays);
         EXPECT_EQ(mixed.implicit_rows, 0U);

@@ -116,8 +116,8 @@ TEST(Session, ReportHasTheKeysThatOtherToolsRead) {
     const nlohmann::json json = file.read();
     EXPECT_EQ(keys(json),
               std::set<std::string>({"patches", "leaves", "links", "pruning", "visibility",
-                                     "direct", "solve", "display", "stages", "timings_s",
-                                     "peak_memory_bytes", "warnings", "error"}));
+                                     "blockers", "direct", "solve", "display", "stages",
+                                     "timings_s", "peak_memory_bytes", "warnings", "error"}));
     EXPECT_EQ(json["stages"], nlohmann::json({{"model", "run"},
                                               {"pruning", "run"},
                                               {"direct_light", "run"},

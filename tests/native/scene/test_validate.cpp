@@ -193,5 +193,64 @@ TEST(validate, indices_beyond_the_vertices_are_an_error_not_a_crash) {
     EXPECT_TRUE(contains(error_of(scene), "'corrupt'"));
 }
 
+Scene floor_scene() {
+    Scene scene;
+    test::add_quad(scene, "floor", vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), kNone);
+    return scene;
+}
+
+TEST(validate, accepts_a_blocker_flattened_along_its_normal) {
+    Scene scene = floor_scene();
+    MeshInput mesh;
+    mesh.object_name = "flat";
+    mesh.positions = kTriangle.data();
+    mesh.position_count = kTriangle.size();
+    const uvec3 triangle(0, 1, 2);
+    mesh.triangles = &triangle;
+    mesh.triangle_count = 1;
+    mesh.to_world = glm::scale(mat4(1), vec3(2, 3, 0));
+    add_blocker(scene, mesh);
+    EXPECT_TRUE(validate(scene).empty());
+    ASSERT_EQ(scene.blockers.size(), 1U);
+    EXPECT_EQ(scene.blockers[0].positions[1], vec3(2, 0, 0)) << "in world space";
+}
+
+TEST(validate, warns_of_blockers_that_cut_nothing) {
+    Scene scene = floor_scene();
+    scene.blockers.push_back({"without faces", {vec3(0), vec3(1)}, {}});
+    test::add_plane(scene, "without area", vec3(0), vec3(1, 0, 0), vec3(0));
+    const auto warnings = validate(scene);
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_TRUE(contains(warnings[0], "'without faces': it has no faces and cuts nothing"));
+    EXPECT_TRUE(contains(warnings[1], "'without area': its faces have no area"));
+    EXPECT_TRUE(scene.blockers[1].triangles.empty());
+}
+
+TEST(validate, names_every_blocker_that_is_broken) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Scene scene = floor_scene();
+    test::add_plane(scene, "with nan", vec3(nan), vec3(1, 0, 0), vec3(0, 1, 0));
+    test::add_plane(scene, "far out", vec3(1e20F), vec3(1, 0, 0), vec3(0, 1, 0));
+    MeshInput mesh;
+    mesh.object_name = "nan matrix";
+    mesh.to_world = mat4(nan);
+    add_blocker(scene, mesh);
+    mesh.object_name = "broken";
+    mesh.to_world = mat4(1);
+    const uvec3 triangle(0, 1, 2);
+    mesh.triangles = &triangle;
+    mesh.triangle_count = 1;
+    add_blocker(scene, mesh);
+    const std::string error = error_of(scene);
+    for (const char* name : {"'with nan'", "'far out'", "'nan matrix'", "'broken'"})
+        EXPECT_TRUE(contains(error, name)) << name << " in " << error;
+}
+
+TEST(validate, says_when_a_blocker_is_the_only_geometry) {
+    Scene scene;
+    test::add_plane(scene, "Wall", vec3(0), vec3(1, 0, 0), vec3(0, 1, 0));
+    EXPECT_TRUE(contains(error_of(scene), "besides those of the blocking plane 'Wall'"));
+}
+
 }  // namespace
 }  // namespace antiradiance

@@ -36,7 +36,7 @@ struct Linked {
                              progress);
         links = linked.sorted();
         tree = std::move(linked.tree);
-        row_scale = row_scales(tree, links, {}, rays, progress);
+        row_scale = row_scales(tree, links, {}, rays, {}, progress);
         materials = average_materials(scene, tree);
         for (const Segment& s : links.segments) {
             for (std::uint32_t l = s.begin; l < s.end; ++l) {

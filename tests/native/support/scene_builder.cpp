@@ -74,6 +74,19 @@ void add_box(Scene& scene, const std::string& name, const vec3& low, const vec3&
     add_mesh(scene, mesh);
 }
 
+void add_plane(Scene& scene, const std::string& name, const vec3& corner, const vec3& a,
+               const vec3& b) {
+    const std::array positions{corner, corner + a, corner + a + b, corner + b};
+    const std::array triangles{uvec3(0, 1, 2), uvec3(0, 2, 3)};
+    MeshInput mesh;
+    mesh.object_name = name;
+    mesh.positions = positions.data();
+    mesh.position_count = positions.size();
+    mesh.triangles = triangles.data();
+    mesh.triangle_count = triangles.size();
+    add_blocker(scene, mesh);
+}
+
 void add_ball(Scene& scene, const std::string& name, const vec3& center, float radius, int rings,
               int material) {
     const auto at = [&](int i, int j) {

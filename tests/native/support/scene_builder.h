@@ -26,6 +26,10 @@ enum class Facing { kOutward, kInward };
 void add_box(Scene& scene, const std::string& name, const vec3& low, const vec3& high, int material,
              Facing facing = Facing::kOutward);
 
+// The parallelogram as a blocking plane.
+void add_plane(Scene& scene, const std::string& name, const vec3& corner, const vec3& a,
+               const vec3& b);
+
 // A ball of 4 rings (rings - 1) triangles, each an object of its own, fronts outwards.
 void add_ball(Scene& scene, const std::string& name, const vec3& center, float radius, int rings,
               int material);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "links/blocking_planes.h"
+
+#include <algorithm>
+
+#include "hierarchy/shaft.h"
+
+namespace antiradiance {
+
+BlockingPlanes::BlockingPlanes(std::span<const Blocker> blockers, float epsilon)
+    : epsilon_(epsilon) {
+    Scene planes;
+    for (std::size_t b = 0; b < blockers.size(); ++b) {
+        MeshInput mesh;
+        mesh.positions = blockers[b].positions.data();
+        mesh.position_count = blockers[b].positions.size();
+        mesh.triangles = blockers[b].triangles.data();
+        mesh.triangle_count = blockers[b].triangles.size();
+        add_mesh(planes, mesh);
+        triangle_blocker_.resize(planes.triangles.size(), static_cast<BlockerId>(b));
+    }
+    if (empty()) return;
+    std::vector<Surface> triangles(planes.triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        triangles[t].triangles[0] = static_cast<TriangleId>(t);
+    regions_ = find_convex_regions(planes, triangles);
+    for (std::size_t r = 0; r < regions_.regions.size(); ++r) {
+        const auto corners = regions_.corners_of(static_cast<RegionId>(r));
+        Box box{corners[0], corners[0]};
+        for (const vec3& p : corners)
+            box = {glm::min(box.low, p), glm::max(box.high, p)};
+        boxes_.push_back(box);
+    }
+    rays_.emplace(planes);
+}
+
+TriangleId BlockingPlanes::first_triangle(const vec3& a, const vec3& b) const {
+    const vec3 d = b - a;
+    const float length = glm::length(d);
+    if (empty() || length <= 2 * epsilon_) return kNone;
+    return rays_->intersect(a, d / length, epsilon_, length - epsilon_).triangle;
+}
+
+BlockerId BlockingPlanes::crossed(const vec3& a, const vec3& b) const {
+    const TriangleId t = first_triangle(a, b);
+    return t == kNone ? kNone : triangle_blocker_[static_cast<std::size_t>(t)];
+}
+
+BlockerId BlockingPlanes::separating(const Hull& a, const Hull& b) const {
+    const TriangleId t = first_triangle(a.center, b.center);
+    if (t == kNone) return kNone;
+    const RegionId region = regions_.of_surface[static_cast<std::size_t>(t)];
+    if (region == kNone || !ShaftTest(regions_).blocks(region, a.corners, b.corners)) return kNone;
+    return triangle_blocker_[static_cast<std::size_t>(t)];
+}
+
+bool BlockingPlanes::near(const vec3& point, float distance) const {
+    return std::ranges::any_of(boxes_, [&](const Box& box) {
+        const vec3 d = glm::max(glm::max(box.low - point, point - box.high), vec3(0));
+        return glm::dot(d, d) < distance * distance;
+    });
+}
+
+}  // namespace antiradiance

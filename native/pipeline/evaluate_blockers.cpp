@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/evaluate_blockers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "links/cut_links.h"
+#include "pipeline/model.h"
+#include "prune/prune.h"
+#include "prune/ray_visibility.h"
+#include "scene/validate.h"
+
+namespace antiradiance {
+
+namespace {
+
+// Counts a link by its sign.
+void count(const Link& link, LinkCount& sum) {
+    ++(link.form_factor > 0 ? sum.radiance : sum.antiradiance);
+}
+
+// Whether the ends of a link see each other, centre from centre.
+bool centers_see(const Model& model, NodeId source, NodeId receiver) {
+    const auto lifted = [&](NodeId n) {
+        const auto i = static_cast<std::size_t>(n);
+        return model.tree.center[i] + model.tree.normal[i] * (2 * model.rays.epsilon());
+    };
+    return !model.rays.occluded(lifted(source), lifted(receiver));
+}
+
+std::vector<std::uint8_t> where(std::span<const BlockerId> cut, bool is_cut) {
+    std::vector<std::uint8_t> result(cut.size());
+    std::ranges::transform(cut, result.begin(), [is_cut](BlockerId plane) {
+        return static_cast<std::uint8_t>((plane != kNone) == is_cut);
+    });
+    return result;
+}
+
+// #links, 1: no ray gets through. Links that are not cut are tested only in a whole evaluation.
+std::vector<std::uint8_t> find_occluded(const Scene& scene, const Model& model,
+                                        std::span<const BlockerId> cut,
+                                        const BlockerEvaluationOptions& how, Progress& progress) {
+    const auto trace = [&](const LinkSet& links) {
+        return trace_visibility(scene, model.tree, links, model.rays, {.rays_per_link = how.rays},
+                                progress);
+    };
+    const auto is_occluded = [](LinkVisibility v) {
+        return static_cast<std::uint8_t>(v == LinkVisibility::kNone);
+    };
+    std::vector<std::uint8_t> occluded(cut.size(), 0);
+    if (how.whole) {
+        std::ranges::transform(trace(model.links), occluded.begin(), is_occluded);
+        return occluded;
+    }
+    const std::vector<LinkVisibility> of_cut = trace(remove_links(model.links, where(cut, false)));
+    auto next = of_cut.begin();
+    for (std::size_t l = 0; l < cut.size(); ++l) {
+        if (cut[l] != kNone) occluded[l] = is_occluded(*next++);
+    }
+    return occluded;
+}
+
+}  // namespace
+
+BlockerEvaluation evaluate_blockers(Scene scene, Options options,
+                                    const BlockerEvaluationOptions& how, Progress& progress) {
+    validate(scene);
+    const std::vector<Blocker> blockers = std::exchange(scene.blockers, {});
+    options.visibility = Visibility::kImplicit;
+    BlockerEvaluation evaluation;
+    for (const Blocker& blocker : blockers)
+        evaluation.per_plane.push_back({blocker.name, {}, {}, 0});
+    const Model model = build_model(scene, options, progress);
+    if (model.tree.size() == 0) return evaluation;
+    evaluation.links = {model.links.radiance_count, model.links.antiradiance_count};
+
+    progress.begin_stage("Evaluating blocking planes", 0.45F, 1);
+    Stopwatch watch;
+    const BlockingPlanes planes(blockers, model.rays.epsilon());
+    const std::vector<BlockerId> cut = find_cut_links(model.tree, model.links, planes, progress);
+    evaluation.seconds = watch.lap();
+    for (std::size_t l = 0; l < cut.size(); ++l) {
+        if (cut[l] != kNone)
+            count(model.links.links[l], evaluation.per_plane[static_cast<std::size_t>(cut[l])].cut);
+    }
+    if (how.rays == 0) return evaluation;
+
+    for (const Segment& segment : model.links.segments) {
+        for (std::uint32_t l = segment.begin; l < segment.end; ++l) {
+            const Link& link = model.links.links[l];
+            if (cut[l] != kNone && link.form_factor > 0 &&
+                centers_see(model, link.source, segment.receiver))
+                ++evaluation.per_plane[static_cast<std::size_t>(cut[l])].wrongly_cut;
+        }
+    }
+    const std::vector<std::uint8_t> occluded = find_occluded(scene, model, cut, how, progress);
+    LinkCount all;
+    for (std::size_t l = 0; l < cut.size(); ++l) {
+        if (!occluded[l]) continue;
+        const Link& link = model.links.links[l];
+        count(link, all);
+        if (cut[l] != kNone)
+            count(link, evaluation.per_plane[static_cast<std::size_t>(cut[l])].occluded_cut);
+    }
+    if (!how.whole) return evaluation;
+    evaluation.occluded = all;
+    constexpr int kReferenceRays = 16;  // a + link, as in an evaluation of pruning
+    const ReferenceSolution reference(scene, options, model, {{kReferenceRays}}, progress);
+    evaluation.without_planes = reference.error_of(model.links, progress);
+    evaluation.with_planes =
+        reference.error_of(remove_links(model.links, where(cut, true)), progress);
+    return evaluation;
+}
+
+}  // namespace antiradiance
