@@ -14,7 +14,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix, Vector
 
-from . import blockers, compat, render_log
+from . import blockers, render_log
 from .sync import display_name
 from .ui import ENGINE
 
@@ -91,8 +91,8 @@ def draw_planes():
     planes = planes_in(context)
     take_part = blockers.taking_part(planes)
     theme = context.preferences.themes[0].view_3d
-    fill = gpu.shader.from_builtin(compat.UNIFORM_COLOR_SHADER)
-    line = gpu.shader.from_builtin(compat.POLYLINE_SHADER)
+    fill = gpu.shader.from_builtin("UNIFORM_COLOR")
+    line = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     scale = context.preferences.system.ui_scale
     blend, depth_test = gpu.state.blend_get(), gpu.state.depth_test_get()
     gpu.state.blend_set("ALPHA")
