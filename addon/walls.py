@@ -95,6 +95,7 @@ def make_plane(name: str, wall, face: Face, depth: float) -> tuple[bpy.types.Mes
             outline.faces.new([copies[vertex] for vertex in member.verts])
         outline.transform(rotation.transposed().to_4x4() @ Matrix.Translation(-face.point)
                           @ wall.matrix_world)
+        outline.normal_update()
         # One polygon where there is no hole.
         bmesh.ops.dissolve_limit(outline, angle_limit=0.01, verts=outline.verts,
                                  edges=outline.edges)
