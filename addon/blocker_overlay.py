@@ -62,7 +62,7 @@ def planes_in(context) -> list[Plane]:
         part = item.antiradiance
         planes.append(Plane(display_name(instance), *surface_of(item), instance.matrix_world.copy(),
                             part.mute, part.solo, owner.select_get(), owner == active))
-    return planes
+    return [plane for plane in planes if len(plane.triangles)]
 
 
 def surface_of(item):
@@ -132,7 +132,7 @@ def draw_labels():
     blf.enable(font, blf.SHADOW)
     blf.shadow(font, 3, 0.0, 0.0, 0.0, 1.0)
     for plane in planes_in(context):
-        if plane.name not in cut or not len(plane.positions):
+        if plane.name not in cut:
             continue
         centre = Vector((plane.positions.min(axis=0) + plane.positions.max(axis=0)) / 2)
         place = location_3d_to_region_2d(context.region, context.region_data, plane.matrix @ centre)

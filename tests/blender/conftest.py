@@ -32,6 +32,8 @@ def in_blender(run_blender, tmp_path_factory):
         done = run_blender("-P", INSIDE / script, "--", output, *arguments, timeout=timeout,
                            window=window)
         assert done.returncode == 0, done.stdout
+        # What fails while Blender draws is only printed.
+        assert not window or "Traceback" not in done.stdout, done.stdout
         assert output.exists(), f"{script} gave no result:\n{done.stdout}"
         return json.loads(output.read_text())
 
