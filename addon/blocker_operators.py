@@ -119,14 +119,14 @@ class ANTIRADIANCE_OT_blocking_plane_from_face(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        thing = context.object
+        thing = context.active_object
         if thing is None or thing.type != "MESH":
             cls.poll_message_set("Select the wall, a mesh, with the face of interest active")
             return False
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
     def execute(self, context):
-        wall = context.object
+        wall = context.active_object
         wall.update_from_editmode()
         try:
             face = walls.active_face(wall)

@@ -308,11 +308,11 @@ class Row:
 
     split = row
 
-    def label(self, text="", icon="NONE"):
-        self._shown.append((text, icon, bool(self.alert)))
+    def label(self, text):
+        self._shown.append((text, bool(self.alert)))
 
-    def prop(self, _owner, name, **_arguments):
-        self._shown.append((name, self.active))
+    def prop(self, _owner, name, icon, **_arguments):
+        self._shown.append((name, self.active, icon))
 
 
 def shown_figures():
@@ -334,7 +334,7 @@ def shown_figures():
               {"name": "Bad (instanced by Row)", "links_cut": 1}, {"name": "Badly", "links_cut": 9}]
     render_log.remember(scene.name, render_log.Outcome(report={"blockers": {"per_plane": planes}}))
     note()
-    judged = [{**plane, "occluded_cut": 1000, "wrongly_cut": 3 if "Bad" in plane["name"] else 0}
+    judged = [{**plane, "occluded_cut": 999, "wrongly_cut": 3 if "Bad" in plane["name"] else 0}
               for plane in planes]
     render_log.remember_evaluation(scene.name, {"per_plane": judged})
     note()
