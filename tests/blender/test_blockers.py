@@ -160,6 +160,33 @@ def test_filter_of_the_list(cases):
     assert named == ["Wall north", "Wall south"] and others == ["Door"]
 
 
+def test_evaluation(cases):
+    case = cases["evaluated"]
+    inside, in_the_open = case["evaluation"]["per_plane"]
+    assert (inside["name"], in_the_open["name"]) == ("Inside", "Open")
+    assert inside["links_cut"] > 0 == inside["wrongly_cut"]
+    assert in_the_open["wrongly_cut"] > 0
+
+
+def test_a_render_cuts_with_the_same_planes(cases):
+    planes = cases["evaluated"]["rendered"]["per_plane"]
+    assert [plane["name"] for plane in planes] == ["Inside", "Open"]
+    assert all(plane["links_cut"] > 0 for plane in planes)
+
+
+def test_words_for_an_evaluation(cases):
+    case = cases["evaluated"]
+    (totals, bad), (_, good), (_, idle) = case["texts"]
+    assert f"{case['evaluation']['links_cut']:,} of {case['evaluation']['links']:,} links" in totals
+    assert bad.startswith("Wrongly cut links carry light") and bad.endswith("openings: Open")
+    assert good.startswith("Nothing is cut wrongly")
+    assert idle.startswith("No link is cut")
+
+
+def test_a_scene_that_cannot_be_evaluated(cases):
+    assert "Error: The scene has no faces to render" in cases["evaluated"]["error"]
+
+
 def test_the_add_on_leaves_nothing_behind(cases):
     case = cases["add_on_off"]
     there = {"menus": 3, "object": True, "panel": True}
