@@ -8,10 +8,6 @@ from . import blockers, walls
 NAME = "Blocking Plane"
 
 
-def is_editable(thing) -> bool:
-    return thing.library is None
-
-
 def mark(objects, value: bool) -> list[str]:
     """Sets or clears `is_blocker`; (#problems,) what the artist has to know of the others."""
     problems = []
@@ -19,10 +15,10 @@ def mark(objects, value: bool) -> list[str]:
         if thing.type != "MESH":
             problems.append(f"Object '{thing.name}': only meshes can be blocking planes, convert "
                             "it first")
-        elif not is_editable(thing):
+        elif thing.library is not None:
             problems.append(f"Object '{thing.name}': it is linked from {thing.library.filepath}, "
                             "change it there or make a library override")
-        else:
+        elif thing.antiradiance.is_blocker != value:
             thing.antiradiance.is_blocker = value
     return problems
 

@@ -109,8 +109,8 @@ class RENDER_PT_antiradiance_blockers(EnginePanel, bpy.types.Panel):
         row.operator(ADD, text="Add", icon="ADD")
         row.operator(FROM_FACE, text="From Face", icon="FACESEL")
         row = column.row(align=True)
-        row.operator(MAKE, text="Make")
-        row.operator(CLEAR, text="Clear")
+        row.operator(MAKE, text="Make Selected")
+        row.operator(CLEAR, text="Clear Selected")
         if is_registered(PROPOSE):
             layout.operator(PROPOSE)
         column = layout.column()
