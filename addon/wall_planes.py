@@ -230,7 +230,7 @@ def dissolved(vertices, faces):
             mesh.faces.new([corners[i] for i in face])
         mesh.normal_update()
         before = sum(face.calc_area() for face in mesh.faces)
-        bmesh.ops.dissolve_limit(mesh, angle_limit=FLAT, use_dissolve_boundaries=True,
+        bmesh.ops.dissolve_limit(mesh, angle_limit=FLAT, use_dissolve_boundaries=False,
                                  verts=mesh.verts[:], edges=mesh.edges[:])
         mesh.verts.index_update()
         after = sum(area_of(loops) for loops in mesh.calc_loop_triangles())
