@@ -20,6 +20,7 @@ OFF_PLANE = 0.001
 CLEARANCE = 0.005  # m, by which lit sides must be farther than what is extended to
 PARALLEL = 0.95    # of planes that do not cut one another: cosine of their angle
 SAMPLE_SPACING = 0.25  # m, between points at which a gap is tested for being matter
+TWO_TRIANGLES = [[0, 1, 2], [0, 2, 3]]  # of a quad
 VIEWS = 24
 MOST_LIT = 0.25    # share of the sides seen from within matter: the light of a floor that goes on
 #                    below a wall counts for all of its polygon
@@ -29,41 +30,29 @@ def close_junctions(planes, lit, thickness):
     """The planes (wall_planes.MidPlane), extended through matter by up to `thickness` (m) to
     themselves and to one another."""
     surroundings = Surroundings(lit)
-    extents = [extent(plane, thickness) for plane in planes]
+    extents = np.array([extent(plane, thickness) for plane in planes]).reshape(-1, 2, 3, 3)
     normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
     closed = []
     for plane, normal in zip(planes, normals):
-        lines = [cut(plane, extents[i])
-                 for i in np.flatnonzero(np.abs(normals @ normal) < PARALLEL)]
-        gaps = surroundings.gaps(plane, np.array([line for line in lines if line is not None]),
-                                 thickness)
+        others = extents[np.abs(normals @ normal) < PARALLEL].reshape(-1, 3, 3)
+        gaps = surroundings.gaps(plane, cut_triangles(*above(plane, others)), thickness)
         closed.append(replace(plane, triangles=planar.united(
             np.concatenate([plane.triangles, *gaps]))) if gaps else plane)
     return closed
 
 
 def extent(plane, margin):
-    """(4, 3) Corners of the rectangle about the plane, with a margin, in world space."""
+    """(2, 3, 3) Triangles of the rectangle about the plane, with a margin, in world space."""
     low = plane.triangles.min(axis=(0, 1)) - margin
     high = plane.triangles.max(axis=(0, 1)) + margin
-    return plane.to_world(np.array([low, (high[0], low[1]), high, (low[0], high[1])]))
+    corners = plane.to_world(np.array([low, (high[0], low[1]), high, (low[0], high[1])]))
+    return corners[TWO_TRIANGLES]
 
 
 def above(plane, points):
     """(..., 2) position and (...) height above the plane, of world-space points (..., 3)"""
     local = plane.frame.to_plane(points)
     return local[..., :2], local[..., 2] - plane.height(local[..., :2])
-
-
-def cut(plane, corners):
-    """(2, 2) Where the plane cuts a rectangle of world-space corners (4, 3), or None."""
-    points, heights = above(plane, corners)
-    halves = points[[[0, 1, 2], [0, 2, 3]]], heights[[[0, 1, 2], [0, 2, 3]]]
-    ends = cut_triangles(*halves).reshape(-1, 2)
-    if not len(ends):
-        return None
-    along = ends @ (ends[1] - ends[0])
-    return ends[[along.argmin(), along.argmax()]]
 
 
 def cut_triangles(points, heights):
@@ -98,9 +87,9 @@ class Surroundings:
                               cut_triangles(points, heights + OFF_PLANE)])
         found = []
         for edge in outline:
-            for quad in extensions(edge, outline, lines.reshape(-1, 2, 2), lit, reach):
+            for quad in extensions(edge, outline, lines, lit, reach):
                 if self._is_matter(plane.to_world(sample(quad))):
-                    found.append(quad[[[0, 1, 2], [0, 2, 3]]])
+                    found.append(quad[TWO_TRIANGLES])
         return found
 
     def _is_matter(self, points):

@@ -18,6 +18,7 @@ COPLANAR = 0.002  # m, from the plane of the largest triangle
 # m2: what is less of a face, all in all, makes no wall and hides none.
 SMALLEST_FACE = 0.05
 NARROWEST = 0.01  # m, of a plane
+MOST_PLANES = 500  # the largest: a facetted dome has thousands, of which each blocks little
 FLAT = 1e-3  # rad, where faces and edges of the result are joined
 
 
@@ -80,10 +81,11 @@ def find_planes(lit, thickness=0.5, min_area=0.25) -> list[BlockingPlane]:
     wall; min_area: m2, of the smallest plane"""
     sides = lit_sides_of(lit)
     planes = []
-    for family in families(sides):
+    for family in families(sides, 2 * min_area):
         planes += mid_planes(faces_of(sides, family), thickness)
-    planes = [plane for plane in planes if planar.areas(plane.triangles).sum() >= min_area]
-    planes = close_junctions(planes, lit, thickness)
+    areas = np.array([planar.areas(plane.triangles).sum() for plane in planes])
+    largest = np.argsort(-areas)[:MOST_PLANES]
+    planes = close_junctions([planes[i] for i in largest if areas[i] >= min_area], lit, thickness)
     found = [finish(plane, part) for plane in planes for part in planar.connected(plane.triangles)
              if is_substantial(part, min_area)]
     return sorted(found, key=lambda plane: -plane.area)
@@ -98,12 +100,13 @@ def lit_sides_of(lit) -> LitSides:
     return LitSides(corners[usable], normals[usable] / lengths[usable, None], lengths[usable] / 2)
 
 
-def families(sides):
-    """Indices of parallel sides, of both directions; the largest first."""
+def families(sides, min_area):
+    """Indices of parallel sides, of both directions, that have that area (m2) together; the
+    largest first."""
     left = np.argsort(-sides.areas)
-    while sides.areas[left].sum() >= SMALLEST_FACE:
+    while len(left) and sides.areas[left].sum() >= min_area:
         parallel = np.abs(sides.normals[left] @ sides.normals[left[0]]) > PARALLEL
-        if sides.areas[left[parallel]].sum() >= 2 * SMALLEST_FACE:
+        if sides.areas[left[parallel]].sum() >= min_area:
             yield left[parallel]
         left = left[~parallel]
 
