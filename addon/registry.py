@@ -6,8 +6,9 @@ import sys
 import bpy
 
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
-           "sync", "render_log", "sessions", "properties", "engine", "presets", "ui",
-           "difference")
+           "blockers", "sync", "render_log", "sessions", "properties", "engine", "presets", "ui",
+           "difference", "walls", "blocker_operators", "blocker_evaluation", "blocker_panel",
+           "blocker_overlay")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
     _full = f"{__package__}.{_name}"
@@ -17,6 +18,11 @@ for _name in MODULES:  # in this order also when Blender reloads its scripts
         importlib.import_module(_full)
 
 from . import (  # noqa: E402
+    blocker_evaluation,
+    blocker_operators,
+    blocker_overlay,
+    blocker_panel,
+    blockers,
     core,
     difference,
     engine,
@@ -30,20 +36,26 @@ from . import (  # noqa: E402
 _registered = []  # classes, in the order of registering
 
 
+CLASSES_WITH_CORE = (*presets.CLASSES, *ui.CLASSES, *difference.CLASSES, *blocker_operators.CLASSES,
+                     *blocker_evaluation.CLASSES, *blocker_panel.CLASSES)
+
+
 def register():
-    classes = []
+    classes = [*engine.CLASSES, *blockers.CLASSES]
     if core.native is not None:
         group = properties.make_group(core.native.options_schema())
-        classes.append(group)
-    classes += engine.CLASSES
-    classes += ([*presets.CLASSES, *ui.CLASSES, *difference.CLASSES] if core.native
-                else ui.CLASSES_WITHOUT_CORE)
+        classes += [group, *CLASSES_WITH_CORE]
+    else:
+        classes += ui.CLASSES_WITHOUT_CORE
     for cls in classes:
         bpy.utils.register_class(cls)
         _registered.append(cls)
+    blockers.register_properties()
     if core.native is not None:
         bpy.types.Scene.antiradiance = bpy.props.PointerProperty(type=group)
         difference.register_properties()
+        blocker_panel.register_menus()
+        blocker_overlay.register()
     else:
         print(f"Antiradiance: {core.load_error}", file=sys.stderr)
     sessions.register()
@@ -53,8 +65,11 @@ def register():
 def unregister():
     ui.return_panels(engine.AntiradianceEngine.bl_idname)
     if hasattr(bpy.types.Scene, "antiradiance"):
+        blocker_overlay.unregister()
+        blocker_panel.unregister_menus()
         difference.unregister_properties()
         del bpy.types.Scene.antiradiance
+    blockers.unregister_properties()
     for cls in reversed(_registered):
         bpy.utils.unregister_class(cls)
     _registered.clear()

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import compat
+from .blockers import is_blocker, taking_part
 from .lamps import add_lamp
 from .materials import MaterialTable
 from .world import set_background
@@ -74,6 +75,16 @@ def texture_coordinates(mesh: MeshArrays, materials, slots, warn_no_uv):
     return uv
 
 
+@dataclass
+class Blocker:
+    """An instance of a blocking plane; which of them take part is known when all are read."""
+    name: str
+    mesh: MeshArrays
+    matrix: np.ndarray  # (4, 4) f32, object -> world space
+    mute: bool
+    solo: bool
+
+
 class SceneWriter:
     """Adds what the depsgraph holds to `scene`, the core's (or one that records, in a test)."""
 
@@ -83,6 +94,7 @@ class SceneWriter:
         self._warned = set()
         self._materials = MaterialTable(scene, warn)
         self._meshes = {}  # pointer of the evaluated mesh -> MeshArrays; they live as long as we do
+        self._blockers = []
 
     def warn_once(self, text):
         if text not in self._warned:
@@ -90,13 +102,16 @@ class SceneWriter:
             self._warn(text)
 
     def write(self, depsgraph, cancelled=lambda: False):
-        """All instances, lamps and the world."""
+        """All instances, lamps, the blocking planes that take part, and the world."""
         override = depsgraph.view_layer_eval.material_override
         for instance in depsgraph.object_instances:
             if cancelled():
                 raise SyncCancelled
             if instance.show_self:
                 self._add(instance, override)
+        for blocker in taking_part(self._blockers):
+            self._scene.add_blocker(blocker.name, positions=blocker.mesh.positions,
+                                    matrix=blocker.matrix, triangles=blocker.mesh.triangles)
         set_background(self._scene, depsgraph.scene.world, self.warn_once)
 
     def _add(self, instance, override):
@@ -104,6 +119,11 @@ class SceneWriter:
         if item.type == "LIGHT":
             add_lamp(self._scene, display_name(instance), item, instance.matrix_world,
                      self.warn_once)
+        elif is_blocker(item):
+            settings = item.antiradiance
+            self._blockers.append(Blocker(
+                display_name(instance), self._read(item.data), matrix_of(instance), settings.mute,
+                settings.solo))
         elif item.type == "MESH":
             self._add_mesh(instance, item, override)
         elif item.type in WITHOUT_SURFACE:
@@ -117,11 +137,14 @@ class SceneWriter:
                for modifier in item.modifiers):
             self.warn_once(f"Object '{item.name}': its hair particles are not rendered")
 
-    def _add_mesh(self, instance, item, override):
-        key = item.data.as_pointer()
+    def _read(self, mesh) -> MeshArrays:
+        key = mesh.as_pointer()
         if key not in self._meshes:
-            self._meshes[key] = read_mesh(item.data)
-        mesh = self._meshes[key]
+            self._meshes[key] = read_mesh(mesh)
+        return self._meshes[key]
+
+    def _add_mesh(self, instance, item, override):
+        mesh = self._read(item.data)
         if not len(mesh.triangles):
             return  # vertices and edges only
         self._note_unsupported(item)
@@ -138,7 +161,7 @@ class SceneWriter:
 
         self._scene.add_mesh(
             display_name(instance), positions=mesh.positions,
-            matrix=np.array(instance.matrix_world, np.float32), triangles=mesh.triangles,
+            matrix=matrix_of(instance), triangles=mesh.triangles,
             triangle_polygon=mesh.polygons, triangle_material=triangle_slots,
             slot_materials=[material.index for material in materials],
             uv=texture_coordinates(mesh, materials, triangle_slots, warn_no_uv),
@@ -154,6 +177,11 @@ class SceneWriter:
             if not getattr(item, attribute, True):
                 self.warn_once(f"Object '{item.name}': its ray visibility '{means}' is left out, "
                                "all rays see it")
+
+
+def matrix_of(instance) -> np.ndarray:
+    """(4, 4) f32, object -> world space"""
+    return np.array(instance.matrix_world, np.float32)
 
 
 def display_name(instance) -> str:

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drives Blender from outside: `in_blender` runs a script of inside/, `render` makes a picture,
-`pictures` those of a scene in several modes."""
+"""Drives Blender from outside: `in_blender` runs a script of inside/, `in_window` one that needs a
+window, `render` makes a picture, `pictures` those of a scene in several modes."""
 
+import functools
 import json
 import pathlib
+import shutil
 import sys
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -25,14 +27,25 @@ REFERENCES = json.loads((IMAGES / "references.json").read_text())
 def in_blender(run_blender, tmp_path_factory):
     """in_blender("script.py", *arguments) -> what the script gave to recorder.finish()."""
 
-    def run(script, *arguments, timeout=300):
+    def run(script, *arguments, timeout=300, window=False):
         output = tmp_path_factory.mktemp("inside") / "result.json"
-        done = run_blender("-P", INSIDE / script, "--", output, *arguments, timeout=timeout)
+        done = run_blender("-P", INSIDE / script, "--", output, *arguments, timeout=timeout,
+                           window=window)
         assert done.returncode == 0, done.stdout
+        # What fails while Blender draws is only printed.
+        assert not window or "Traceback" not in done.stdout, done.stdout
         assert output.exists(), f"{script} gave no result:\n{done.stdout}"
         return json.loads(output.read_text())
 
     return run
+
+
+@pytest.fixture(scope="session")
+def in_window(in_blender):
+    """in_window("script.py", *arguments): as in_blender, for scripts that drive inside/windowed.py"""
+    if shutil.which("xvfb-run") is None:
+        pytest.skip("xvfb-run is missing: apt-get install xvfb xauth")
+    return functools.partial(in_blender, window=True)
 
 
 @dataclass

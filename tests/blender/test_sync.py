@@ -7,8 +7,8 @@ from pytest import approx
 
 
 @pytest.fixture(scope="module")
-def cases(in_blender):
-    return in_blender("sync_cases.py")
+def cases(in_blender, tmp_path_factory):
+    return in_blender("sync_cases.py", tmp_path_factory.mktemp("library"))
 
 
 @pytest.fixture
@@ -147,3 +147,56 @@ def test_what_has_no_surface_is_left_out_and_named(cases, of):
     assert "'Smoke': volumes are not rendered" in warnings
     assert "'Holdout'" in warnings and "'Unseen'" in warnings
     assert "Wire" not in warnings and "Lattice" not in warnings and "Empty" not in warnings
+
+
+def planes(cases, case):
+    """{name: blocking planes of that name}, and that none of them is rendered"""
+    named = {}
+    for plane in cases[case]["blockers"]:
+        named.setdefault(plane["name"], []).append(plane)
+    assert named.keys().isdisjoint(mesh["name"] for mesh in cases[case]["meshes"])
+    return named
+
+
+def test_blocking_planes(cases, of):
+    named = planes(cases, "blockers")
+    assert set(named) == {"Turned", "Subdivided", "Bare"}
+    turned = one(named, "Turned")
+    assert turned["low"] == approx([9, 0, -3], abs=1e-6)
+    assert turned["high"] == approx([11, 0, 3], abs=1e-6)
+    assert one(named, "Subdivided")["triangles"] == 16 * 2
+    assert set(of("blockers")) == {"Wall"}
+    assert cases["blockers"]["warnings"] == [], "nothing is said of their ray visibility"
+
+
+@pytest.mark.parametrize("case, part, objects", [
+    ("muted_blocker", {"Open"}, {"Muted", "Open"}),
+    ("solo_blocker", {"Alone"}, {"Open", "Alone", "Alone but muted"}),
+    ("solo_in_another_scene", {"Open"}, {"Open"}),
+])
+def test_mute_and_solo(cases, of, case, part, objects):
+    assert set(planes(cases, case)) == part
+    assert objects.isdisjoint(of(case)), "those that take no part are not rendered either"
+
+
+def test_animated_blocking_plane(cases):
+    plane = one(planes(cases, "animated_blocker"), "Moving")
+    assert plane["low"] == approx([3, -1, 0])
+
+
+def test_instanced_blocking_planes(cases, of):
+    named = planes(cases, "instanced_blockers")
+    assert set(named) == {"Inside (instanced by Row)", "Small (instanced by Carrier)"}
+    assert one(named, "Inside (instanced by Row)")["low"] == approx([9, -1, 0])
+    centres = sorted(tuple(np.round((np.array(p["low"]) + p["high"]) / 2, 5))
+                     for p in named["Small (instanced by Carrier)"])
+    assert centres == [(-1, -1, 0), (-1, 1, 0), (1, -1, 0), (1, 1, 0)]
+    assert not of("instanced_blockers")
+
+
+def test_linked_blocking_planes(cases, of):
+    """The instance's plane takes part, that of the override is muted."""
+    named = planes(cases, "linked_blockers")
+    assert set(named) == {"Linked plane (instanced by Instance)"}
+    assert one(named, "Linked plane (instanced by Instance)")["low"] == approx([9, -1, 0])
+    assert set(of("linked_blockers")) == {"Linked wall (instanced by Instance)", "Linked wall"}

@@ -37,6 +37,7 @@ class RecordingScene:
 
     def __init__(self):
         self.textures, self.materials, self.meshes, self.lamps = [], [], [], []
+        self.blockers = []
         self.camera = self.background = None
 
     def add_texture(self, name, pixels):
@@ -65,6 +66,15 @@ class RecordingScene:
                 assert array.flags.c_contiguous, name
         self.meshes.append({"name": object_name, **arrays})
         return len(self.meshes) - 1
+
+    def add_blocker(self, name, *, positions, matrix, triangles):
+        for array, dtype, width in ((positions, np.float32, 3), (matrix, np.float32, 4),
+                                    (triangles, np.int32, 3)):
+            assert array.dtype == dtype and array.shape == (len(array), width), name
+            assert array.flags.c_contiguous, name
+        self.blockers.append({"name": name, "positions": positions, "matrix": matrix,
+                              "triangles": triangles})
+        return len(self.blockers) - 1
 
     def add_lamp(self, name, **settings):
         self.lamps.append({"name": name, **settings})
@@ -142,6 +152,14 @@ def cube(name="Cube", size=2.0, **attributes):
     return link(mesh, name, **attributes)
 
 
+def blocker(name="Plane", mute=False, solo=False, **attributes):
+    """A quad() that is a blocking plane."""
+    thing = quad(name, **attributes)
+    part = thing.antiradiance
+    part.is_blocker, part.mute, part.solo = True, mute, solo
+    return thing
+
+
 def quad(name="Quad", **attributes):
     """The square (-1..1, -1..1, 0) that faces +Z, with the unit square as its UV map."""
     mesh = bpy.data.meshes.new(name)
@@ -165,12 +183,24 @@ def material(name, albedo=None, emission=None):
     return surface
 
 
+def world_positions(mesh):
+    """(#vertices, 3) of what add_mesh() or add_blocker() got."""
+    matrix = mesh["matrix"].astype(float)
+    return mesh["positions"].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def blockers_of(scene):
+    """Blocking planes as {"name", "triangles", "low", "high"} with world-space extents."""
+    return [{"name": plane["name"], "triangles": len(plane["triangles"]),
+             "low": world_positions(plane).min(axis=0), "high": world_positions(plane).max(axis=0)}
+            for plane in scene.blockers]
+
+
 def summary(scene):
     """Meshes as {"name", "triangles", "polygons", "low", "high", ...} with world-space extents."""
     result = []
     for mesh in scene.meshes:
-        matrix = mesh["matrix"].astype(float)
-        world = mesh["positions"].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
+        world = world_positions(mesh)
         used = world[np.unique(mesh["triangles"])]
         corners = world[mesh["triangles"]]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -179,7 +209,7 @@ def summary(scene):
             "polygons": len(np.unique(mesh["triangle_polygon"])),
             "low": used.min(axis=0), "high": used.max(axis=0),
             "area": 0.5 * np.linalg.norm(normals, axis=1).sum(),
-            "determinant": np.linalg.det(matrix[:3, :3]),
+            "determinant": np.linalg.det(mesh["matrix"].astype(float)[:3, :3]),
             "smooth": mesh["corner_normals"] is not None,
             "uv": mesh["uv"], "array": id(mesh["positions"]),
             "materials": [scene.materials[i]["name"] for i in mesh["slot_materials"]],

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds one small scene per case and tells what sync makes of it."""
+"""Builds one small scene per case and tells what sync makes of it.
+
+argument: a folder for a library.
+"""
 
 import math
 import pathlib
@@ -11,8 +14,9 @@ from mathutils import Matrix
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import recorder  # noqa: E402
-from recorder import cube, link, quad  # noqa: E402
+from recorder import blocker, cube, link, quad  # noqa: E402
 
+FOLDER = pathlib.Path(recorder.arguments()[0])
 CASES = {}
 
 
@@ -201,6 +205,84 @@ def not_surfaces():
     cube("Unseen").visible_camera = False
 
 
+@case
+def blockers():
+    """Turned, parented, subdivided, without faces; one that is an ordinary object again."""
+    parent = link(None, "Parent", location=(10.0, 0.0, 0.0))
+    blocker("Turned", rotation_euler=(math.pi / 2, 0.0, 0.0), scale=(1.0, 3.0, 1.0)).parent = parent
+    blocker("Subdivided").modifiers.new("Subdivision", "SUBSURF").render_levels = 2
+    bare = blocker("Bare").data
+    bare.clear_geometry()
+    bare.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    blocker("Wall").antiradiance.is_blocker = False
+
+
+@case
+def muted_blocker():
+    blocker("Muted", mute=True)
+    blocker("Open")
+
+
+@case
+def solo_blocker():
+    blocker("Open")
+    blocker("Alone", solo=True)
+    blocker("Alone but muted", solo=True, mute=True)
+
+
+@case
+def solo_in_another_scene():
+    here = bpy.context.scene
+    blocker("Open")
+    elsewhere = blocker("Elsewhere", solo=True)
+    here.collection.objects.unlink(elsewhere)
+    bpy.data.scenes.new("Other").collection.objects.link(elsewhere)
+
+
+@case
+def animated_blocker():
+    """Frame 2 of three: it has moved, and is no longer muted."""
+    plane = blocker("Moving", mute=True)
+    for frame, (x, mute) in enumerate(((0.0, True), (4.0, False), (8.0, True)), start=1):
+        plane.location.x, plane.antiradiance.mute = x, mute
+        plane.keyframe_insert("location", frame=frame)
+        plane.keyframe_insert("antiradiance.mute", frame=frame)
+    bpy.context.scene.frame_set(2)
+
+
+@case
+def instanced_blockers():
+    """In a collection instance, at vertices, and by a modifier on an object that is none."""
+    walls = bpy.data.collections.new("Walls")
+    inside = blocker("Inside")
+    walls.objects.link(inside)
+    bpy.context.scene.collection.objects.unlink(inside)
+    row = link(None, "Row", location=(10.0, 0.0, 0.0))
+    row.instance_type, row.instance_collection = "COLLECTION", walls
+    carrier = quad("Carrier")
+    blocker("Small", scale=(0.1, 0.1, 0.1)).parent = carrier
+    carrier.instance_type = "VERTS"
+    carrier.show_instancer_for_render = False
+
+
+@case
+def linked_blockers():
+    """A library's collection, as an instance and as an override that mutes one of its planes."""
+    house = bpy.data.collections.new("House")
+    for thing in (blocker("Linked plane"), cube("Linked wall")):
+        house.objects.link(thing)
+    library = str(FOLDER / "library.blend")
+    bpy.data.libraries.write(library, {house})
+    scene = recorder.empty_scene()
+    with bpy.data.libraries.load(library, link=True) as (_there, wanted):
+        wanted.collections = ["House"]
+    house = wanted.collections[0]
+    instance = link(None, "Instance", location=(10.0, 0.0, 0.0))
+    instance.instance_type, instance.instance_collection = "COLLECTION", house
+    own = house.override_hierarchy_create(scene, bpy.context.view_layer)
+    own.objects["Linked plane"].antiradiance.mute = True
+
+
 def expected_of_original(name):
     """(#triangles, area) of an object's own mesh in the current scene, by another route."""
     evaluated = bpy.data.objects[name].evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -215,7 +297,8 @@ def run(build):
     recorder.empty_scene()
     build()
     scene, warnings = recorder.sync()
-    result = {"meshes": recorder.summary(scene), "warnings": warnings}
+    result = {"meshes": recorder.summary(scene), "warnings": warnings,
+              "blockers": recorder.blockers_of(scene)}
     if build is text_curve_metaball:
         result["expected"] = {n: expected_of_original(n) for n in ("Text", "Pipe", "Ball")}
     if build is sheared_by_parents:

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the blocking planes do to the light, judged with rays, and the words for it."""
+import bpy
+
+from . import core, render_log
+from .properties import option_values
+from .sync import SceneWriter
+
+
+class ANTIRADIANCE_OT_evaluate_blocking_planes(bpy.types.Operator):
+    """Judge with rays each link of the scene as the viewports show it: which of those that planes
+    cut are blocked by surfaces anyway, and which carry light that is lost"""
+    bl_idname = "antiradiance.evaluate_blocking_planes"
+    bl_label = "Evaluate Blocking Planes"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Blocking planes are evaluated in Object Mode")
+            return False
+        return True
+
+    def execute(self, context):
+        scene, manager = core.native.Scene(), context.window_manager
+        manager.progress_begin(0, 100)
+        try:
+            SceneWriter(scene, scene.add_warning).write(context.evaluated_depsgraph_get())
+            evaluation = core.native.evaluate_blockers(
+                scene, option_values(context.scene.antiradiance),
+                progress=lambda fraction, _stage: manager.progress_update(100 * fraction))
+        except core.native.SceneError as failure:
+            self.report({"ERROR"}, str(failure))
+            return {"CANCELLED"}
+        finally:
+            manager.progress_end()
+        render_log.remember_evaluation(context.scene.name, evaluation)
+        self.report({"WARNING" if evaluation["wrongly_cut"] else "INFO"}, totals(evaluation))
+        return {"FINISHED"}
+
+
+def totals(evaluation: dict) -> str:
+    return ("{links_cut:,} of {links:,} links cut: {occluded_cut:,} of {occluded:,} that surfaces "
+            "block, {wrongly_cut:,} wrongly").format_map(evaluation)
+
+
+def verdict(evaluation: dict) -> str:
+    """What the figures mean, and what to do."""
+    if not evaluation["links_cut"]:
+        return "No link is cut. A plane has to lie between the surfaces that it is to part"
+    guilty = [plane["name"] for plane in evaluation["per_plane"] if plane["wrongly_cut"]]
+    if not guilty:
+        return "Nothing is cut wrongly: no light gets through where the planes are"
+    return ("Wrongly cut links carry light that surfaces let through, and that is lost now. Keep "
+            f"these planes inside of their walls, away from openings: {', '.join(guilty)}")
+
+
+CLASSES = (ANTIRADIANCE_OT_evaluate_blocking_planes,)
