@@ -20,6 +20,7 @@ SMALLEST_FACE = 0.05
 NARROWEST = 0.01  # m, of a plane
 MOST_PLANES = 500  # the largest: a facetted dome has thousands, of which each blocks little
 FLAT = 1e-3  # rad, where faces and edges of the result are joined
+SAME_AREA = 1e-3  # relative
 
 
 @dataclass
@@ -67,9 +68,19 @@ class MidPlane:
 class BlockingPlane:
     vertices: np.ndarray    # (v, 3) m, world space
     faces: list[list[int]]  # polygons
+    triangles: np.ndarray   # (t, 3) i32, of the polygons
     centre: np.ndarray      # (3,)
     normal: np.ndarray      # (3,)
     area: float             # m2
+
+    def sample(self, count):
+        """(count, 3) Points all over it, the same whenever asked."""
+        random = np.random.default_rng(0)
+        corners = self.vertices[self.triangles]
+        weights = planar.areas(corners)
+        chosen = corners[random.choice(len(corners), count, p=weights / weights.sum())]
+        a, b = np.sqrt(random.random((count, 1))), random.random((count, 1))
+        return chosen[:, 0] * (1 - a) + chosen[:, 1] * a * (1 - b) + chosen[:, 2] * a * b
 
 
 def height_on(slope, points):
@@ -209,42 +220,40 @@ def is_substantial(triangles, min_area):
     return area >= min_area and 2 * area >= NARROWEST * perimeter
 
 
-def finish(plane: MidPlane, triangles) -> BlockingPlane:
-    """As few polygons as there can be without holes."""
-    points = plane.to_world(triangles)
-    weights = planar.areas(points)
-    centre = (points.mean(axis=1) * weights[:, None]).sum(axis=0) / weights.sum()
-    vertices, corners = np.unique(points.reshape(-1, 3), axis=0, return_inverse=True)
-    corners = corners.reshape(-1, 3)
+def finish(plane: MidPlane, cells) -> BlockingPlane:
+    """As few polygons as there can be without holes. cells: (t, 3, 2) of the plane"""
+    corners = plane.to_world(cells)
+    weights = planar.areas(corners)
+    area = weights.sum()
+    centre = (corners.mean(axis=1) * weights[:, None]).sum(axis=0) / area
     # Blender keeps vertices in 32 bits: about the centre they are the more exact.
-    merged = dissolved(vertices - centre, corners.tolist())
-    if merged is None:
-        merged = vertices - centre, corners.tolist()
-    vertices, faces = merged
-    return BlockingPlane(vertices + centre, faces, centre, plane.normal, float(weights.sum()))
+    vertices, triangles = np.unique((corners - centre).reshape(-1, 3), axis=0, return_inverse=True)
+    triangles = triangles.reshape(-1, 3)
+    for merge in (True, False):
+        mesh = polygons(vertices, triangles, merge)
+        # A polygon about a hole would be cut into triangles that cover it.
+        if abs(planar.areas(mesh[0][mesh[2]]).sum() - area) < SAME_AREA * area:
+            break
+    vertices, faces, triangles = mesh
+    return BlockingPlane(vertices + centre, faces, triangles, centre, plane.normal, float(area))
 
 
-def dissolved(vertices, faces):
-    """(vertices, faces) with the inner edges gone, or None should that have covered a hole."""
+def polygons(vertices, triangles, merge):
+    """(vertices, polygons, triangles of these), as BlockingPlane has them. merge: without edges
+    that are not needed"""
     mesh = bmesh.new()
     try:
         corners = [mesh.verts.new(vertex) for vertex in vertices]
-        for face in faces:
-            mesh.faces.new([corners[i] for i in face])
+        for triangle in triangles:
+            mesh.faces.new([corners[i] for i in triangle])
         mesh.normal_update()
-        before = sum(face.calc_area() for face in mesh.faces)
-        bmesh.ops.dissolve_limit(mesh, angle_limit=FLAT, use_dissolve_boundaries=False,
-                                 verts=mesh.verts[:], edges=mesh.edges[:])
+        if merge:
+            bmesh.ops.dissolve_limit(mesh, angle_limit=FLAT, use_dissolve_boundaries=False,
+                                     verts=mesh.verts[:], edges=mesh.edges[:])
         mesh.verts.index_update()
-        after = sum(area_of(loops) for loops in mesh.calc_loop_triangles())
-        if abs(after - before) > 1e-3 * before:
-            return None
         return (np.array([vertex.co for vertex in mesh.verts], float),
-                [[vertex.index for vertex in face.verts] for face in mesh.faces])
+                [[vertex.index for vertex in face.verts] for face in mesh.faces],
+                np.array([[loop.vert.index for loop in loops]
+                          for loops in mesh.calc_loop_triangles()], np.int32))
     finally:
         mesh.free()
-
-
-def area_of(loops):
-    a, b, c = (loop.vert.co for loop in loops)
-    return (b - a).cross(c - a).length / 2
