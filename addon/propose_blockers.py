@@ -51,8 +51,9 @@ class ANTIRADIANCE_OT_propose_blocking_planes(bpy.types.Operator):
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
-            planes, share = self._choose(
-                context, lambda fraction, _stage: manager.progress_update(100 * fraction))
+            planes, share = choose(
+                context, self.thickness, self.min_area, self.limit,
+                lambda fraction, _stage: manager.progress_update(100 * fraction))
         except core.native.SceneError as failure:
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
@@ -61,34 +62,41 @@ class ANTIRADIANCE_OT_propose_blocking_planes(bpy.types.Operator):
             return {"FINISHED"}  # so that the thickness can be adjusted
         finally:
             manager.progress_end()
-        solo = [thing.name for thing in blockers.of_scene(context.scene) if thing.antiradiance.solo]
         add_objects(context.scene, planes)
-        message = (f"Added {len(planes)} blocking plane{'s' * (len(planes) > 1)}, which "
-                   f"cut{'s' * (len(planes) == 1)} {100 * share:.1f} % of the links")
-        if solo:
-            self.report({"WARNING"}, f"{message}, but not while '{solo[0]}' is solo")
-        else:
-            self.report({"INFO"}, message)
+        self.report(*summary(len(planes), share, blockers.of_scene(context.scene)))
         return {"FINISHED"}
 
-    def _choose(self, context, progress):
-        """([BlockingPlane], the most useful first; the share of all links that they cut)"""
-        depsgraph = context.evaluated_depsgraph_get()
-        walls = wall_planes.find_planes(core.native.lit_sides(read_scene(depsgraph)),
-                                        self.thickness, self.min_area)
-        if not walls:
-            raise NothingFoundError("light reaches both sides of no wall of at most this thickness "
-                                    "and at least this area")
-        there = tree_of(blockers.of_scene(context.scene))
-        candidates = [plane for plane in walls if not coincides(plane, there)]
-        if not candidates:
-            raise NothingFoundError("the walls that were found have some already")
-        links_cut, links = count_links(read_scene(depsgraph), candidates,
-                                       option_values(context.scene.antiradiance), progress)
-        best = [i for i in np.argsort(-links_cut, kind="stable")[:self.limit] if links_cut[i]]
-        if not best:
-            raise NothingFoundError("no link crosses the walls that were found")
-        return [candidates[i] for i in best], links_cut[best].sum() / links
+
+def summary(count, share, there):
+    """(kind, text) of the report on `count` planes that cut that share of the links."""
+    text = f"Added {count} blocking planes, which cut {100 * share:.1f} % of the links"
+    if count == 1:
+        text = f"Added a blocking plane, which cuts {100 * share:.1f} % of the links"
+    solo = [thing.name for thing in there if thing.antiradiance.solo]
+    if solo:
+        return {"WARNING"}, f"{text}, but not while '{solo[0]}' is solo"
+    return {"INFO"}, text
+
+
+def choose(context, thickness, min_area, limit, progress=None):
+    """([BlockingPlane], those first that cut the most links; the share of all links that they cut)
+    """
+    depsgraph = context.evaluated_depsgraph_get()
+    walls = wall_planes.find_planes(core.native.lit_sides(read_scene(depsgraph)), thickness,
+                                    min_area)
+    if not walls:
+        raise NothingFoundError("light reaches both sides of no wall of at most this thickness and "
+                                "at least this area")
+    there = tree_of(blockers.of_scene(context.scene))
+    candidates = [plane for plane in walls if not coincides(plane, there)]
+    if not candidates:
+        raise NothingFoundError("the walls that were found have some already")
+    links_cut, links = count_links(read_scene(depsgraph), candidates,
+                                   option_values(context.scene.antiradiance), progress)
+    best = [i for i in np.argsort(-links_cut, kind="stable")[:limit] if links_cut[i]]
+    if not best:
+        raise NothingFoundError("no other links cross the walls that were found")
+    return [candidates[i] for i in best], links_cut[best].sum() / links
 
 
 def read_scene(depsgraph):

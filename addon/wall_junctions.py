@@ -22,8 +22,9 @@ PARALLEL = 0.95    # of planes that do not cut one another: cosine of their angl
 SAMPLE_SPACING = 0.25  # m, between points at which a gap is tested for being matter
 TWO_TRIANGLES = [[0, 1, 2], [0, 2, 3]]  # of a quad
 VIEWS = 24
-MOST_LIT = 0.25    # share of the sides seen from within matter: the light of a floor that goes on
-#                    below a wall counts for all of its polygon
+# Of the sides seen from within matter: a floor that goes on below a wall counts as lit there too,
+# and fills half of the view. In an opening nearly all are lit.
+MOST_LIT = 0.6
 
 
 def close_junctions(planes, lit, thickness):
