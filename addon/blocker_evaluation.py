@@ -8,8 +8,8 @@ from .sync import SceneWriter
 
 
 class ANTIRADIANCE_OT_evaluate_blocking_planes(bpy.types.Operator):
-    """Judge with rays each link of the scene as the viewports show it: which of those that planes
-    cut are blocked by surfaces anyway, and which carry light that is lost"""
+    """Judge with rays the links that the planes cut, in the scene as the viewports show it: which
+    are blocked by surfaces anyway, and which carry light that is lost"""
     bl_idname = "antiradiance.evaluate_blocking_planes"
     bl_label = "Evaluate Blocking Planes"
     bl_options = {"REGISTER"}
@@ -40,8 +40,8 @@ class ANTIRADIANCE_OT_evaluate_blocking_planes(bpy.types.Operator):
 
 
 def totals(evaluation: dict) -> str:
-    return ("{links_cut:,} of {links:,} links cut: {occluded_cut:,} of {occluded:,} that surfaces "
-            "block, {wrongly_cut:,} wrongly").format_map(evaluation)
+    return ("{links_cut:,} of {links:,} links cut: {occluded_cut:,} that surfaces block anyway, "
+            "{wrongly_cut:,} wrongly").format_map(evaluation)
 
 
 def verdict(evaluation: dict) -> str:
@@ -51,8 +51,9 @@ def verdict(evaluation: dict) -> str:
     guilty = [plane["name"] for plane in evaluation["per_plane"] if plane["wrongly_cut"]]
     if not guilty:
         return "Nothing is cut wrongly: no light gets through where the planes are"
-    return ("Wrongly cut links carry light that surfaces let through, and that is lost now. Keep "
-            f"these planes inside of their walls, away from openings: {', '.join(guilty)}")
+    return ("Wrongly cut links carry light that at least partly gets past the surfaces, and that "
+            "is lost now. Keep these planes inside of their walls, away from edges and openings: "
+            + ", ".join(guilty))
 
 
 CLASSES = (ANTIRADIANCE_OT_evaluate_blocking_planes,)

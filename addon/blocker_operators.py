@@ -8,10 +8,6 @@ from . import blockers, walls
 NAME = "Blocking Plane"
 
 
-def is_editable(thing) -> bool:
-    return thing.library is None
-
-
 def mark(objects, value: bool) -> list[str]:
     """Sets or clears `is_blocker`; (#problems,) what the artist has to know of the others."""
     problems = []
@@ -19,10 +15,10 @@ def mark(objects, value: bool) -> list[str]:
         if thing.type != "MESH":
             problems.append(f"Object '{thing.name}': only meshes can be blocking planes, convert "
                             "it first")
-        elif not is_editable(thing):
+        elif thing.library is not None:
             problems.append(f"Object '{thing.name}': it is linked from {thing.library.filepath}, "
                             "change it there or make a library override")
-        else:
+        elif thing.antiradiance.is_blocker != value:
             thing.antiradiance.is_blocker = value
     return problems
 
@@ -119,14 +115,14 @@ class ANTIRADIANCE_OT_blocking_plane_from_face(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        thing = context.object
+        thing = context.active_object
         if thing is None or thing.type != "MESH":
             cls.poll_message_set("Select the wall, a mesh, with the face of interest active")
             return False
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
     def execute(self, context):
-        wall = context.object
+        wall = context.active_object
         wall.update_from_editmode()
         try:
             face = walls.active_face(wall)

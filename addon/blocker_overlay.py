@@ -27,7 +27,7 @@ TEXT_SIZE = 11.0
 _handlers = []
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plane:
     """One instance of a blocking plane, as a viewport sees it."""
     name: str              # display_name()
@@ -37,6 +37,7 @@ class Plane:
     matrix: Matrix
     mute: bool
     solo: bool
+    visible: bool          # in this viewport
     selected: bool
     active: bool
 
@@ -49,20 +50,19 @@ def draws_in(context) -> bool:
 
 
 def planes_in(context) -> list[Plane]:
-    """Those that the viewport shows."""
-    planes, active = [], context.view_layer.objects.active
+    planes, view_layer = [], context.view_layer
     for instance in context.evaluated_depsgraph_get().object_instances:
         item = instance.object  # valid until the iterator moves on
         if not (instance.show_self and blockers.is_blocker(item)):
             continue
         # An instance is hidden, and selected, with the object that makes it.
         owner = (instance.parent if instance.is_instance else item).original
-        if not owner.visible_get(view_layer=context.view_layer, viewport=context.space_data):
-            continue
         part = item.antiradiance
-        planes.append(Plane(display_name(instance), *surface_of(item), instance.matrix_world.copy(),
-                            part.mute, part.solo, owner.select_get(), owner == active))
-    return [plane for plane in planes if len(plane.triangles)]
+        planes.append(Plane(
+            display_name(instance), *surface_of(item), instance.matrix_world.copy(), part.mute,
+            part.solo, owner.visible_get(view_layer=view_layer, viewport=context.space_data),
+            owner.select_get(), owner == view_layer.objects.active))
+    return planes
 
 
 def surface_of(item):
@@ -99,10 +99,11 @@ def draw_planes():
     gpu.state.depth_test_set("NONE")  # planes lie inside of walls
     try:
         for plane in planes:
-            cuts = plane in take_part
-            strength, color = (1.0, RED) if cuts else (FAINT, GREY)
-            rim = (theme.object_active if plane.active and plane.selected
-                   else theme.object_selected if plane.selected else color)
+            if not plane.visible or not len(plane.triangles):
+                continue
+            strength, color = (1.0, RED) if plane in take_part else (FAINT, GREY)
+            rim = (color if not plane.selected
+                   else theme.object_active if plane.active else theme.object_selected)
             with gpu.matrix.push_pop():
                 gpu.matrix.multiply_matrix(plane.matrix)
                 batch = batch_for_shader(fill, "TRIS", {"pos": plane.positions},
@@ -132,7 +133,7 @@ def draw_labels():
     blf.enable(font, blf.SHADOW)
     blf.shadow(font, 3, 0.0, 0.0, 0.0, 1.0)
     for plane in planes_in(context):
-        if plane.name not in cut:
+        if plane.name not in cut or not plane.visible or not len(plane.positions):
             continue
         centre = Vector((plane.positions.min(axis=0) + plane.positions.max(axis=0)) / 2)
         place = location_3d_to_region_2d(context.region, context.region_data, plane.matrix @ centre)

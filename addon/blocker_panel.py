@@ -19,13 +19,16 @@ FROM_FACE = ANTIRADIANCE_OT_blocking_plane_from_face.bl_idname
 EVALUATE = ANTIRADIANCE_OT_evaluate_blocking_planes.bl_idname
 PROPOSE = "antiradiance.propose_blocking_planes"
 
+# The list's headings, at length.
+WHAT = {"Cut": "Links Cut", "Blocked": "Blocked Anyway", "Wrong": "Cut Wrongly"}
+
 
 def short(count: int) -> str:
-    """At least two digits, in the width of a column."""
+    """In the four characters that a column has room for."""
     for unit, suffix in ((1e6, "M"), (1e3, "k")):
-        if count >= 10 * unit:
-            return f"{count / unit:.{0 if count >= 100 * unit else 1}f} {suffix}"
-    return f"{count:,}"
+        if count >= unit:
+            return f"{count / unit:.{0 if count >= 10 * unit else 1}f}{suffix}"
+    return f"{count}"
 
 
 def columns(context, name: str) -> list[tuple[str, int | None, bool]]:
@@ -33,25 +36,26 @@ def columns(context, name: str) -> list[tuple[str, int | None, bool]]:
     name: from the last render and, if there was one, the last evaluation."""
     scene_name = context.scene.name
     rendered = blockers.figures_of(name, render_log.planes_of_last(scene_name)) or {}
-    shown = [("Links Cut", rendered.get("links_cut"), False)]
+    shown = [("Cut", rendered.get("links_cut"), False)]
     evaluation = render_log.last_evaluation(scene_name)
     if evaluation is not None:
         judged = blockers.figures_of(name, evaluation["per_plane"]) or {}
         wrongly = judged.get("wrongly_cut")
         shown += [("Blocked", judged.get("occluded_cut"), False),
-                  ("Wrongly", wrongly, bool(wrongly))]
+                  ("Wrong", wrongly, bool(wrongly))]
     return shown
 
 
 def draw_row(layout, shown):
-    """(where the name goes, where the switches go); the figures are between them."""
+    """(where the name goes, where the switches go); the figures, between them, in equal columns."""
     split = layout.split(factor=0.35)
     left, right = split.row(), split.row()
-    for text, icon, alert in shown:
-        cell = right.row()
+    figures = right.split()
+    for text, alert in shown:
+        cell = figures.row()
         cell.alignment = "RIGHT"
         cell.alert = alert
-        cell.label(text=text, icon=icon)
+        cell.label(text=text)
     return left, right.row(align=True)
 
 
@@ -69,11 +73,13 @@ class ANTIRADIANCE_UL_blockers(bpy.types.UIList):
         return flags, (helpers.sort_items_by_name(objects) if self.use_filter_sort_alpha else [])
 
     def draw_item(self, context, layout, scene, item, _icon, _active_data, _active_name):
-        cells = [("" if number is None else short(number), "ERROR" if bad else "NONE", bad)
+        cells = [("" if number is None else short(number), bad)
                  for _heading, number, bad in columns(context, item.name)]
         name, switches = draw_row(layout, cells)
         name.active = blockers.takes_part(item, scene)
-        name.prop(item, "name", text="", emboss=False, icon="MESH_PLANE")
+        name.alert = any(bad for _text, bad in cells)
+        name.prop(item, "name", text="", emboss=False,
+                  icon="ERROR" if name.alert else "MESH_PLANE")
         part = item.antiradiance
         switches.prop(part, "mute", text="", emboss=False,
                       icon="HIDE_ON" if part.mute else "HIDE_OFF")
@@ -91,7 +97,7 @@ class RENDER_PT_antiradiance_blockers(EnginePanel, bpy.types.Panel):
         layout.prop(view, "show_blockers")
         if there:
             column = layout.column(align=True)
-            headings = [(heading, "NONE", False) for heading, *_ in columns(context, "")]
+            headings = [(heading, False) for heading, *_ in columns(context, "")]
             name, switches = draw_row(column, headings)
             name.label(text="Plane")
             switches.label(icon="BLANK1")
@@ -103,8 +109,8 @@ class RENDER_PT_antiradiance_blockers(EnginePanel, bpy.types.Panel):
         row.operator(ADD, text="Add", icon="ADD")
         row.operator(FROM_FACE, text="From Face", icon="FACESEL")
         row = column.row(align=True)
-        row.operator(MAKE, text="Make")
-        row.operator(CLEAR, text="Clear")
+        row.operator(MAKE, text="Make Selected")
+        row.operator(CLEAR, text="Clear Selected")
         if is_registered(PROPOSE):
             layout.operator(PROPOSE)
         column = layout.column()
@@ -149,7 +155,7 @@ class OBJECT_PT_antiradiance_blocking_plane(EnginePanel, bpy.types.Panel):
             split = grid.split(factor=0.4)
             left = split.row()
             left.alignment = "RIGHT"
-            left.label(text=heading)
+            left.label(text=WHAT[heading])
             split.alert = bad
             split.label(text="Not known yet" if number is None else f"{number:,}",
                         icon="ERROR" if bad else "NONE")

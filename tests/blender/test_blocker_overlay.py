@@ -54,6 +54,17 @@ def test_planes_that_take_no_part_are_grey(cases):
     assert solo["grey"]["pixels"] == approx(2 * solo["red"]["pixels"], rel=0.01)
 
 
+def test_a_plane_out_of_sight_is_still_alone(cases):
+    case = cases["solo_in_local_view"]
+    assert case["red"]["pixels"] == 0 and seen_at(case["grey"], [-1, -1], [1, 1])
+
+
+def test_panels(cases):
+    """The headings have no name; any error while drawing fails in_window()."""
+    assert set(cases["panels"]["RENDER"]) == {"", "Plane"}
+    assert set(cases["panels"]["OBJECT"]) == {"Plane"}
+
+
 def test_the_outline_has_the_colours_of_the_selection(cases):
     plain, selected, active = cases["outlines"]
     assert plain[0] > 0.9 and max(plain[1:3]) < 0.2
@@ -64,6 +75,7 @@ def test_evaluated_meshes(cases):
     case = cases["evaluated"]
     assert seen_at(case["modifier"], [-5, -1], [1, 1]), "two planes with a gap"
     assert seen_at(case["instance"], [1, 0], [3, 2])
+    assert seen_at(case["two instances"], [-4.5, -0.5], [3.5, 0.5])
     assert case["hidden instance"]["pixels"] == 0
     assert seen_at(case["edited"], [-1, -1], [1, 1])
     assert case["bare"]["pixels"] == 0

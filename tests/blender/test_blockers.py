@@ -135,27 +135,56 @@ def test_a_row_selects_its_plane(cases):
 def test_figures_of_the_list(cases):
     shown = cases["shown_figures"]
     before, rendered, evaluated = shown[:3], shown[3:6], shown[6:]
-    part = [["name", True], ["mute", None], ["solo", None]]
-    no_part = [["name", False], *part[1:]]
+    switches = [["mute", None, "HIDE_OFF"], ["solo", None, "SOLO_OFF"]]
+    part = [["name", True, "MESH_PLANE"], *switches]
+    wrong = [["name", True, "ERROR"], *switches]
+    no_part = [["name", False, "MESH_PLANE"], ["mute", None, "HIDE_ON"], ["solo", None, "SOLO_OFF"]]
 
-    def plain(text):
-        return [text, "NONE", False]
+    def plain(*texts):
+        return [[text, False] for text in texts]
 
-    assert before == [["Good", plain(""), *part], ["Bad", plain(""), *part],
-                      ["Muted", plain(""), *no_part]]
+    assert before == [["Good", *plain(""), *part], ["Bad", *plain(""), *part],
+                      ["Muted", *plain(""), *no_part]]
     # An object and its instance count together, another whose name only begins alike does not.
-    assert rendered == [["Good", plain("1,234"), *part], ["Bad", plain("56.8 k"), *part],
-                        ["Muted", plain(""), *no_part]]
+    assert rendered == [["Good", *plain("1.2k"), *part], ["Bad", *plain("57k"), *part],
+                        ["Muted", *plain(""), *no_part]]
     assert evaluated == [
-        ["Good", plain("1,234"), plain("1,000"), plain("0"), *part],
-        ["Bad", plain("56.8 k"), plain("2,000"), ["6", "ERROR", True], *part],
-        ["Muted", plain(""), plain(""), plain(""), *no_part]]
+        ["Good", *plain("1.2k", "999", "0"), *part],
+        ["Bad", *plain("57k", "2.0k"), ["6", True], *wrong],
+        ["Muted", *plain("", "", ""), *no_part]]
 
 
 def test_filter_of_the_list(cases):
     everything, named, others = cases["filtered"]
     assert everything == ["Wall north", "Wall south", "Door"]
     assert named == ["Wall north", "Wall south"] and others == ["Door"]
+
+
+def test_evaluation(cases):
+    case = cases["evaluated"]
+    inside, in_the_open = case["evaluation"]["per_plane"]
+    assert (inside["name"], in_the_open["name"]) == ("Inside", "Open")
+    assert inside["links_cut"] > 0 == inside["wrongly_cut"]
+    assert in_the_open["wrongly_cut"] > 0
+
+
+def test_a_render_cuts_with_the_same_planes(cases):
+    planes = cases["evaluated"]["rendered"]["per_plane"]
+    assert [plane["name"] for plane in planes] == ["Inside", "Open"]
+    assert all(plane["links_cut"] > 0 for plane in planes)
+
+
+def test_words_for_an_evaluation(cases):
+    case = cases["evaluated"]
+    (totals, bad), (_, good), (_, idle) = case["texts"]
+    assert f"{case['evaluation']['links_cut']:,} of {case['evaluation']['links']:,} links" in totals
+    assert bad.startswith("Wrongly cut links carry light") and bad.endswith("openings: Open")
+    assert good.startswith("Nothing is cut wrongly")
+    assert idle.startswith("No link is cut")
+
+
+def test_a_scene_that_cannot_be_evaluated(cases):
+    assert "Error: The scene has no faces to render" in cases["evaluated"]["error"]
 
 
 def test_the_add_on_leaves_nothing_behind(cases):

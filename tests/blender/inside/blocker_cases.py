@@ -16,7 +16,7 @@ from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import recorder  # noqa: E402
-from recorder import blocker, cube, empty_scene, link, quad  # noqa: E402
+from recorder import blocker, cube, empty_scene, link, material, quad  # noqa: E402
 
 FOLDER = pathlib.Path(recorder.arguments()[0])
 blockers, render_log = recorder.addon("blockers"), recorder.addon("render_log")
@@ -308,11 +308,11 @@ class Row:
 
     split = row
 
-    def label(self, text="", icon="NONE"):
-        self._shown.append((text, icon, bool(self.alert)))
+    def label(self, text):
+        self._shown.append((text, bool(self.alert)))
 
-    def prop(self, _owner, name, **_arguments):
-        self._shown.append((name, self.active))
+    def prop(self, _owner, name, icon, **_arguments):
+        self._shown.append((name, self.active, icon))
 
 
 def shown_figures():
@@ -334,7 +334,7 @@ def shown_figures():
               {"name": "Bad (instanced by Row)", "links_cut": 1}, {"name": "Badly", "links_cut": 9}]
     render_log.remember(scene.name, render_log.Outcome(report={"blockers": {"per_plane": planes}}))
     note()
-    judged = [{**plane, "occluded_cut": 1000, "wrongly_cut": 3 if "Bad" in plane["name"] else 0}
+    judged = [{**plane, "occluded_cut": 999, "wrongly_cut": 3 if "Bad" in plane["name"] else 0}
               for plane in planes]
     render_log.remember_evaluation(scene.name, {"per_plane": judged})
     note()
@@ -354,6 +354,47 @@ def filtered():
         results.append([thing.name for thing, flag in zip(scene.objects, flags)
                         if bool(flag) != invert])
     return results
+
+
+def evaluated():
+    """A wall between two halves of a room, with a plane in it, one in the open and a muted one."""
+    scene = empty_scene()
+    scene.render.engine = "ANTIRADIANCE"
+    scene.render.resolution_x, scene.render.resolution_y = 8, 6
+    scene.antiradiance.visibility, scene.antiradiance.max_patch_size = "IMPLICIT", 1.0
+    surfaces = (quad("Floor", scale=(4, 4, 1)),
+                quad("Ceiling", scale=(4, 4, 1), location=(0, 0, 3), rotation_euler=(math.pi, 0, 0)),
+                cube("Wall", location=(0, 0, 1.5), scale=(0.1, 5, 2)))
+    for surface in surfaces:
+        surface.data.materials.append(material(surface.name, albedo=(0.6,) * 3))
+    for x in (-2, 2):
+        lamp = bpy.data.lights.new("Lamp", "POINT")
+        lamp.energy = 100.0
+        link(lamp, "Lamp", location=(x, 0, 2))
+    upright = {"rotation_euler": (0, math.pi / 2, 0), "scale": (1.6, 4.5, 1)}
+    blocker("Inside", location=(0, 0, 1.5), **upright)
+    blocker("Open", location=(2, 0, 1.5), **upright)
+    blocker("Muted", location=(3, 0, 1.5), mute=True, **upright)
+    evaluation_of, texts = recorder.addon("blocker_evaluation"), []
+
+    def evaluate():
+        operators.evaluate_blocking_planes()
+        evaluation = render_log.last_evaluation(scene.name)
+        texts.append((evaluation_of.totals(evaluation), evaluation_of.verdict(evaluation)))
+        return evaluation
+
+    result = {"evaluation": evaluate(), "texts": texts}
+    bpy.ops.render.render()
+    result["rendered"] = render_log.last(scene.name).report["blockers"]
+    bpy.data.objects["Open"].antiradiance.mute = True
+    evaluate()
+    bpy.data.objects["Inside"].location.x = 50.0
+    evaluate()
+    for surface in surfaces:
+        bpy.data.objects.remove(surface)
+    result["error"] = failure_of(operators.evaluate_blocking_planes)
+    render_log.clear()
+    return result
 
 
 def add_on_off():
@@ -387,5 +428,6 @@ def add_on_off():
 
 CASES = (added, in_edit_mode, marked, problems, undone, wall_moved_anyhow,
          thin_limit, triangulated_with_window, triangulated_quad, two_shells, concave_face,
-         face_in_edit_mode, no_face, rows, shown_figures, filtered, add_on_off)
+         face_in_edit_mode, no_face, rows, shown_figures, filtered, evaluated,
+         add_on_off)
 recorder.finish({case.__name__: case() for case in CASES})

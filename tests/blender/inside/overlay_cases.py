@@ -202,6 +202,12 @@ def evaluated():
     instance.hide_set(True)
     yield
     results["hidden instance"] = drawn()["red"]
+    corner = link(bpy.data.meshes.new("Corners"), "Corners")
+    corner.data.from_pydata([(-4, 0, 0), (3, 0, 0)], [], [])
+    corner.instance_type = "VERTS"
+    blocker("Twice", scale=(0.5, 0.5, 1)).parent = corner
+    yield
+    results["two instances"] = drawn()["red"]
     new_scene()
     plane = blocker("Plane")
     with windowed.in_view():
@@ -245,6 +251,52 @@ def labels():
             for name, pixels in (("without_text", without_text), ("with_text", with_text))}
 
 
+def solo_in_local_view():
+    """The plane that is alone is elsewhere, in a view of the other one only."""
+    new_scene()
+    plane = blocker("Plane")
+    blocker("Alone", location=(0, 500, 0), solo=True)
+    with windowed.in_view():
+        bpy.context.view_layer.update()
+        plane.select_set(True)
+        bpy.ops.view3d.localview(frame_selected=False)
+    yield
+    shown = drawn()
+    with windowed.in_view():
+        bpy.ops.view3d.localview(frame_selected=False)
+    return shown
+
+
+def panels():
+    """The names whose figures the Properties editor asks for when it draws, by tab."""
+    scene = new_scene()
+    plane = blocker("Plane")
+    render_log, module = recorder.addon("render_log"), recorder.addon("blocker_panel")
+    figures = {"links": 9, "links_cut": 5, "occluded_cut": 4, "wrongly_cut": 1}
+    render_log.remember_evaluation(scene.name, {**figures, "per_plane": [
+        {"name": "Plane", **figures}]})
+    with windowed.in_view():
+        bpy.context.view_layer.objects.active = plane
+    columns, asked = module.columns, {}
+    for panel in (module.RENDER_PT_antiradiance_blockers,
+                  module.OBJECT_PT_antiradiance_blocking_plane):
+        bpy.utils.unregister_class(panel)
+        panel.bl_options = set()  # open
+        bpy.utils.register_class(panel)
+    area = next(area for area in bpy.context.window_manager.windows[0].screen.areas
+                if area.type == "PROPERTIES")
+    for tab in ("RENDER", "OBJECT"):
+        names = asked.setdefault(tab, [])
+        module.columns = lambda context, name, names=names: names.append(name) or columns(context,
+                                                                                          name)
+        area.spaces.active.context = tab
+        area.tag_redraw()
+        yield
+    module.columns = columns
+    render_log.clear()
+    return asked
+
+
 def gpu_state():
     """What the next one who draws finds: as without the add-on's drawing."""
     new_scene()
@@ -263,7 +315,7 @@ def gpu_state():
 
 
 CASES = (undone, from_face_undone, sizes_on_invoke, switched_off, parts, outlines, evaluated,
-         labels, gpu_state)
+         labels, solo_in_local_view, panels, gpu_state)
 
 
 def steps():
