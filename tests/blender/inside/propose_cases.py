@@ -192,35 +192,36 @@ def l_shape():
     return found(lit(triangulated(surface([WALL, ((0, 0.2, 0), (0.2, 3, 2.6))]))))
 
 
-def rooms(*others, ground=False):
-    """A corridor and rooms along it in a block outside of which it is dark."""
-    hollow = [((0, 0, 0), (6, 2, 2.6)), ((0, 2.2, 0), (2.9, 5, 2.6)), ((3.06, 2.2, 0), (6, 5, 2.6)),
-              *others]
-    quads = surface([((-1, -5, -1), (7, 6, 3.6))], hollow, outside=False)
-    if ground:  # one floor and one ceiling for all, which go on below and above the walls
-        level = (quads[..., 2] == quads[:, :1, 2]).all(axis=1)
-        floor = np.array([(0, 0, 0), (6, 0, 0), (6, 5, 0), (0, 5, 0)], float)
-        quads = [*quads[~level], floor, floor[::-1] + (0, 0, 2.6)]
-    return lit(triangulated(quads))
+CORRIDOR = ((0, 0, 0), (6, 2, 2.6))
+NORTH = (((0, 2.2, 0), (2.9, 5, 2.6)), ((3.06, 2.2, 0), (6, 5, 2.6)))
+SOUTH = (((0, -1, 0), (2.9, 2, 2.6)), ((3.06, -1, 0), (6, 2, 2.6)))
+
+
+def rooms(*hollow):
+    """Rooms and doors in a block outside of which it is dark."""
+    return surface([((-1, -5, -1), (7, 6, 3.6))], hollow, outside=False)
 
 
 def t_junction():
-    return found(rooms())
+    return found(lit(triangulated(rooms(CORRIDOR, *NORTH))))
 
 
 def t_junction_between_slabs():
-    return found(rooms(ground=True))
+    """One floor and one ceiling for all, which go on below and above the walls."""
+    quads = rooms(CORRIDOR, *NORTH)
+    level = (quads[..., 2] == quads[:, :1, 2]).all(axis=1)
+    floor = np.array([(0, 0, 0), (6, 0, 0), (6, 5, 0), (0, 5, 0)], float)
+    return found(lit(triangulated([*quads[~level], floor, floor[::-1] + (0, 0, 2.6)])))
 
 
 def crossing():
-    return found(rooms(((0, -3, 0), (2.9, -0.2, 2.6)), ((3.06, -3, 0), (6, -0.2, 2.6)),
-                       # in place of the corridor
-                       ), min_area=1.0)
+    return found(lit(triangulated(rooms(*NORTH, *SOUTH))))
 
 
 def doors_beside_a_junction():
-    """Doors on both sides of the partition, and less than half a metre between them."""
-    return found(rooms(((2.45, 1.9, 0), (2.85, 2.3, 2.05)), ((3.11, 1.9, 0), (3.5, 2.3, 2.05))))
+    """Less than half a metre from one to the other, and either narrower than that."""
+    doors = ((2.45, 1.9, 0), (2.85, 2.3, 2.05)), ((3.11, 1.9, 0), (3.5, 2.3, 2.05))
+    return found(lit(triangulated(rooms(CORRIDOR, *NORTH, *doors))))
 
 
 def storeys():
