@@ -8,7 +8,7 @@ import bpy
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
            "blockers", "sync", "render_log", "sessions", "properties", "engine", "presets", "ui",
            "difference", "walls", "blocker_operators", "blocker_evaluation", "blocker_panel",
-           "blocker_overlay")
+           "blocker_overlay", "planar", "wall_junctions", "wall_planes", "propose_blockers")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
     _full = f"{__package__}.{_name}"
@@ -28,6 +28,7 @@ from . import (  # noqa: E402
     engine,
     presets,
     properties,
+    propose_blockers,
     render_log,
     sessions,
     ui,
@@ -37,7 +38,7 @@ _registered = []  # classes, in the order of registering
 
 
 CLASSES_WITH_CORE = (*presets.CLASSES, *ui.CLASSES, *difference.CLASSES, *blocker_operators.CLASSES,
-                     *blocker_evaluation.CLASSES, *blocker_panel.CLASSES)
+                     *blocker_evaluation.CLASSES, *propose_blockers.CLASSES, *blocker_panel.CLASSES)
 
 
 def register():
