@@ -18,16 +18,18 @@ constexpr std::uint32_t kSamplesOfPair = 16;
 // Of the light's links that a plane cuts: how many may have a free way before it is told of.
 constexpr double kFreeShare = 0.05;
 
-// What a plane cuts: two nodes and how many + links run between them.
+// What a plane cuts: a + link, or two nodes that it parts and the number of + links between them.
 struct Cut {
     NodeId a, b;
     std::size_t links;
+    bool parted;
 };
 
 // The share of the + links of a plane whose ends see each other.
 class FreeShare {
 public:
-    FreeShare(const PatchTree& tree, const RayScene& rays) : tree_(tree), rays_(rays) {}
+    FreeShare(const PatchTree& tree, const RayScene& rays, const BlockingPlanes& planes)
+        : tree_(tree), rays_(rays), planes_(planes) {}
 
     [[nodiscard]] double operator()(const std::vector<Cut>& cuts) const {
         const std::size_t stride = 1 + cuts.size() / kSamples;
@@ -40,23 +42,24 @@ public:
 
 private:
     void add(const Cut& cut, double& free, double& all) const {
-        const bool single = tree_.is_leaf(cut.a) && tree_.is_leaf(cut.b);
-        const std::uint32_t count = single ? 1 : kSamplesOfPair;
+        const std::uint32_t count = cut.parted ? kSamplesOfPair : 1;
         const double weight = static_cast<double>(cut.links) / count;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const NodeId a = leaf_below(cut.a, 2 * i);
-            const NodeId b = leaf_below(cut.b, 2 * i + 1);
+            const NodeId a = end_of(cut.a, cut.parted, 2 * i);
+            const NodeId b = end_of(cut.b, cut.parted, 2 * i + 1);
             const vec3 from = lifted(a);
             const vec3 to = lifted(b);
-            if (glm::dot(normal(a), to - from) <= 0 || glm::dot(normal(b), from - to) <= 0)
-                continue;  // between these there is no link
+            const bool linked =
+                glm::dot(normal(a), to - from) > 0 && glm::dot(normal(b), from - to) > 0;
+            if (!linked || planes_.crossed(from, to) == kNone) continue;
             all += weight;
             if (!rays_.occluded(from, to)) free += weight;
         }
     }
 
-    // One of the leaves of a subtree, by chance.
-    [[nodiscard]] NodeId leaf_below(NodeId n, std::uint32_t seed) const {
+    // The patch that a link ends at, or one of the leaves below a parted node, by chance.
+    [[nodiscard]] NodeId end_of(NodeId n, bool parted, std::uint32_t seed) const {
+        if (!parted && !tree_.is_cluster(n)) return n;
         const auto begin = std::ranges::lower_bound(tree_.leaves, n);
         const auto end =
             std::ranges::lower_bound(tree_.leaves, tree_.subtree_end[static_cast<std::size_t>(n)]);
@@ -72,6 +75,7 @@ private:
 
     const PatchTree& tree_;
     const RayScene& rays_;
+    const BlockingPlanes& planes_;
 };
 
 // A plane in a wall takes away light that the wall stops anyhow; one in the open darkens the room.
@@ -106,7 +110,7 @@ BlockerCuts cut_by_blockers(const Scene& scene, const PatchTree& tree, const Ray
         const auto plane = static_cast<std::size_t>(crossed[l]);
         if (link.form_factor > 0) {
             ++cuts.per_plane[plane].radiance;
-            lights[plane].push_back({link.source, link.receiver, 1});
+            lights[plane].push_back({link.source, link.receiver, 1, false});
         } else {
             ++cuts.per_plane[plane].antiradiance;
         }
@@ -115,10 +119,10 @@ BlockerCuts cut_by_blockers(const Scene& scene, const PatchTree& tree, const Ray
     for (const SeparatedPair& pair : links.separated) {
         const auto plane = static_cast<std::size_t>(pair.plane);
         cuts.per_plane[plane] += pair.links;
-        lights[plane].push_back({pair.a, pair.b, pair.links.radiance});
+        lights[plane].push_back({pair.a, pair.b, pair.links.radiance, true});
     }
     cuts.seconds = watch.lap();
-    cuts.warnings = misplaced(scene, FreeShare(tree, rays), lights);
+    cuts.warnings = misplaced(scene, FreeShare(tree, rays, planes), lights);
     return cuts;
 }
 

@@ -27,7 +27,6 @@ import recorder  # noqa: E402
 core = recorder.addon("core")
 propose_blockers = recorder.addon("propose_blockers")
 option_values = recorder.addon("properties").option_values
-tag = recorder.addon("blockers").tag
 
 ROOMS = ("two_rooms", "corridor", "desks", "office", "japanese_room")
 # Corners of the middles of walls, in metres.
@@ -58,7 +57,7 @@ def add_by_hand(name):
         mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
         thing = bpy.data.objects.new("By hand", mesh)
         bpy.context.collection.objects.link(thing)
-        tag(thing)
+        thing.antiradiance.is_blocker = True
 
 
 def add_proposed(_name):
