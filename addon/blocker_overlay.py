@@ -22,6 +22,9 @@ RED, GREY = (1.0, 0.08, 0.05), (0.85, 0.85, 0.85)
 FILL_ALPHA = 0.35
 FAINT = 0.4       # of the alpha, of planes that take no part
 BEHIND = 0.5      # of the alpha, of what is behind a surface
+# What a plane is lifted towards the eye, so that one on a surface is not half behind it: of the
+# depth from -1 to 1. Ten metres away and at Blender's own clip start, 1 cm.
+LIFT = 2e-6
 LINE_WIDTH = 2.0  # px at Blender's own scale, as the size of the text
 TEXT_SIZE = 11.0
 
@@ -93,6 +96,8 @@ def draw_planes():
     take_part = blockers.taking_part(planes)
     theme = context.preferences.themes[0].view_3d
     width = LINE_WIDTH * context.preferences.system.ui_scale
+    lifted = gpu.matrix.get_projection_matrix()
+    lifted[2] -= LIFT * lifted[3]
     blend, depth_test = gpu.state.blend_get(), gpu.state.depth_test_get()
     gpu.state.blend_set("ALPHA")
     try:
@@ -102,8 +107,9 @@ def draw_planes():
             strength, color = (1.0, RED) if plane in take_part else (FAINT, GREY)
             rim = (color if not plane.selected
                    else theme.object_active if plane.active else theme.object_selected)
-            with gpu.matrix.push_pop():
+            with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
                 gpu.matrix.multiply_matrix(plane.matrix)
+                gpu.matrix.load_projection_matrix(lifted)
                 # Planes lie inside of walls: what those hide is seen through them.
                 for test, share in (("LESS_EQUAL", 1.0), ("GREATER", BEHIND)):
                     gpu.state.depth_test_set(test)
