@@ -176,7 +176,8 @@ def pieces_below(face, faces, thickness):
     """(slope, (t, 3, 2) triangles) of the planes halfway to the faces that look down and are, in
     that place, the nearest below `face`. All in one arrangement of edges: so a piece spans no hole
     of either face."""
-    below = [other for other in faces if other is not face and may_lie_below(face, other, thickness)]
+    below = [other for other in faces
+             if other is not face and may_lie_below(face, other, thickness)]
     if all(other.looks_up for other in below):
         return
     near = [other.outline[meets_box(other.outline, face.box)] for other in below]

@@ -129,6 +129,17 @@ def lit_from_one_side():
     return found({**sides, "front": sides["corners"][..., 1].max(axis=1) < 0.1})
 
 
+def panel_on_a_wall():
+    """Only its front is lit; the wall's face goes on behind it."""
+    panel = np.array([[(1, -0.1, 1), (2, -0.1, 1), (2, -0.1, 2), (1, -0.1, 2)]], float)
+    return found(joined(lit(triangulated(surface([WALL]))), lit(triangulated(panel))))
+
+
+def pilaster():
+    """Where it stands, the wall is thicker and its middle elsewhere."""
+    return found(lit(triangulated(surface([WALL, ((1.8, 0.2, 0), (2.2, 0.24, 2.6))]))))
+
+
 def openings():
     return found(lit(triangulated(surface([WALL], [DOOR, WINDOW]), cuts=3, seed=2)))
 
@@ -137,10 +148,13 @@ def slot():
     return found(lit(triangulated(surface([WALL], [SLOT]))))
 
 
-def slot_with_an_edge_in_the_middle():
-    """The wall's halves stand back to back: no lit side goes through the plane of their middle."""
+def slots_that_see_dark_sides():
+    """Panels before and behind, which count as unlit: so within the slot most sides are, as within
+    matter. In the second wall no lit side crosses the middle, where its reveals have an edge."""
+    panels = np.array([[(-5, y, -5), (9, y, -5), (9, y, 9), (-5, y, 9)] for y in (-0.3, 0.5)], float)
     halves = [((0, 0, 0), (4, 0.1, 2.6)), ((0, 0.1, 0), (4, 0.2, 2.6))]
-    return found(lit(triangulated(surface(halves, [SLOT]))))
+    return [found(joined(lit(triangulated(surface(boxes, [SLOT]))),
+                         lit(triangulated(panels), front=False))) for boxes in ([WALL], halves)]
 
 
 def slot_in_a_sheet():
