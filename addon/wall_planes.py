@@ -93,7 +93,7 @@ def find_planes(lit, thickness=0.5, min_area=0.25) -> list[BlockingPlane]:
     sides = lit_sides_of(lit)
     planes = []
     for family in families(sides, 2 * min_area):
-        planes += mid_planes(faces_of(sides, family), thickness)
+        planes += mid_planes(faces_of(sides, family), thickness + COPLANAR)
     areas = np.array([planar.areas(plane.triangles).sum() for plane in planes])
     largest = np.argsort(-areas)[:MOST_PLANES]
     planes = close_junctions([planes[i] for i in largest if areas[i] >= min_area], lit, thickness)
@@ -218,7 +218,7 @@ def is_substantial(triangles, min_area):
     edges = planar.outline(triangles)
     perimeter = np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).sum()
     area = planar.areas(triangles).sum()
-    return area >= min_area and 2 * area >= NARROWEST * perimeter
+    return area >= min_area and 0 < NARROWEST * perimeter <= 2 * area
 
 
 def finish(plane: MidPlane, cells) -> BlockingPlane:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mid-planes of hand-made walls.
 
-Result: {CASE: [plane]}, the largest plane first, with its triangles as Blender makes them of its
-polygons, and points all over it.
+Result: {CASE: [plane] or a list of such}, the largest plane first, with its triangles as Blender
+makes them of its polygons, and points all over it; of "random_blocks" figures only.
 """
 
 import pathlib
@@ -30,7 +30,7 @@ def surface(boxes, holes=(), outside=True):
         return np.any([((middles > low) & (middles < high)).all(axis=-1) for low, high in some],
                       axis=0)
 
-    hollow = within(holes) if holes else np.zeros(middles.shape[:3], bool)
+    hollow = within(holes) if len(holes) else np.zeros(middles.shape[:3], bool)
     full = within(boxes) & ~hollow
     lit = ~full if outside else hollow
     quads = []
@@ -194,7 +194,7 @@ def dark_air_gap():
 
 def thickness():
     sides = lit(triangulated(surface([WALL])))
-    return [found(sides, thickness=limit) for limit in (0.19, 0.21)]
+    return [found(sides, thickness=limit) for limit in (0.19, 0.2)]
 
 
 def smallest_area():
@@ -250,6 +250,25 @@ def drift():
                        (i, 0.0015 * i, 2)]) for i in range(6)]
     back = np.array([(0, 0.2, 0), (0, 0.2, 2), (6, 0.2, 2), (6, 0.2, 0)])
     return found(lit(triangulated([*quads, back])))
+
+
+def random_blocks():
+    """[(planes, points of them, points that stick out of the matter by more than 1 mm)]"""
+    results = []
+    for seed in range(40):
+        random = np.random.default_rng(seed)
+        low = random.integers(0, 20, (9, 3)) / 10
+        blocks = np.stack([low, low + random.integers(1, 16, (9, 3)) / 10], axis=1)
+        boxes, holes = blocks[:7], blocks[7:]
+        triangles = triangulated(surface(boxes, holes), cuts=1 + seed % 3, seed=seed)
+        turn = ASKEW if seed % 2 else np.eye(3)
+        planes = wall_planes.find_planes(lit(triangles @ turn.T), min_area=0.1)
+        points = np.concatenate([plane.sample(300) for plane in planes]) @ turn
+        within = [((points > low - margin) & (points < high + margin)).all(axis=1)
+                  for margin, some in ((0.001, boxes), (-0.001, holes)) for low, high in some]
+        solid = np.any(within[:7], axis=0) & ~np.any(within[7:], axis=0)
+        results.append((len(planes), len(points), int((~solid).sum())))
+    return results
 
 
 def nothing():
