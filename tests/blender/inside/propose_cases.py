@@ -151,7 +151,7 @@ def slot():
 def slots_that_see_dark_sides():
     """Panels before and behind, which count as unlit: so within the slot most sides are, as within
     matter. In the second wall no lit side crosses the middle, where its reveals have an edge."""
-    panels = np.array([[(-5, y, -5), (9, y, -5), (9, y, 9), (-5, y, 9)] for y in (-0.3, 0.5)], float)
+    panels = [np.array([(-5, y, -5), (9, y, -5), (9, y, 9), (-5, y, 9)]) for y in (-0.3, 0.5)]
     halves = [((0, 0, 0), (4, 0.1, 2.6)), ((0, 0.1, 0), (4, 0.2, 2.6))]
     return [found(joined(lit(triangulated(surface(boxes, [SLOT]))),
                          lit(triangulated(panels), front=False))) for boxes in ([WALL], halves)]
