@@ -89,7 +89,7 @@ class MarkOperator:
 
 class ANTIRADIANCE_OT_make_blocker(MarkOperator, bpy.types.Operator):
     """Let the selected meshes cut the links of light that cross them; they are drawn as wires and
-    no longer rendered, in Cycles neither"""
+    no longer rendered, nor are they in Cycles"""
     bl_idname = "antiradiance.make_blocker"
     bl_label = "Make Blocking Plane"
     value = True
@@ -139,9 +139,9 @@ class ANTIRADIANCE_OT_blocking_plane_from_face(bpy.types.Operator):
         if depth is None:
             limit = bpy.utils.units.to_string(context.scene.unit_settings.system, "LENGTH",
                                               self.thickness)
-            self.report({"WARNING"}, f"Object '{plane.name}': it lies on the face, as '{wall.name}' "
-                        f"has no other side within {limit}. Move it into the wall, or raise Wall "
-                        "Thickness")
+            self.report({"WARNING"}, f"Object '{plane.name}': it lies on the face, as there is no "
+                        f"other side of '{wall.name}' within {limit}. Move it into the wall, or "
+                        "raise Wall Thickness")
         return {"FINISHED"}
 
 

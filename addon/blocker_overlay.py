@@ -18,9 +18,13 @@ from . import blockers, render_log
 from .sync import display_name
 from .ui import ENGINE
 
-RED, GREY = (1.0, 0.08, 0.05), (0.5, 0.5, 0.5)
-FILL_ALPHA = 0.25
+RED, GREY = (1.0, 0.08, 0.05), (0.85, 0.85, 0.85)
+FILL_ALPHA = 0.35
 FAINT = 0.4       # of the alpha, of planes that take no part
+BEHIND = 0.5      # of the alpha, of what is behind a surface
+# What a plane is lifted towards the eye, so that one on a surface is not half behind it: of the
+# depth from -1 to 1. Ten metres away and at Blender's own clip start, 1 cm.
+LIFT = 2e-6
 LINE_WIDTH = 2.0  # px at Blender's own scale, as the size of the text
 TEXT_SIZE = 11.0
 
@@ -91,12 +95,11 @@ def draw_planes():
     planes = planes_in(context)
     take_part = blockers.taking_part(planes)
     theme = context.preferences.themes[0].view_3d
-    fill = gpu.shader.from_builtin("UNIFORM_COLOR")
-    line = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    scale = context.preferences.system.ui_scale
+    width = LINE_WIDTH * context.preferences.system.ui_scale
+    lifted = gpu.matrix.get_projection_matrix()
+    lifted[2] -= LIFT * lifted[3]
     blend, depth_test = gpu.state.blend_get(), gpu.state.depth_test_get()
     gpu.state.blend_set("ALPHA")
-    gpu.state.depth_test_set("NONE")  # planes lie inside of walls
     try:
         for plane in planes:
             if not plane.visible or not len(plane.triangles):
@@ -104,21 +107,31 @@ def draw_planes():
             strength, color = (1.0, RED) if plane in take_part else (FAINT, GREY)
             rim = (color if not plane.selected
                    else theme.object_active if plane.active else theme.object_selected)
-            with gpu.matrix.push_pop():
+            with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
                 gpu.matrix.multiply_matrix(plane.matrix)
-                batch = batch_for_shader(fill, "TRIS", {"pos": plane.positions},
-                                         indices=plane.triangles)
-                fill.uniform_float("color", (*color, FILL_ALPHA * strength))
-                batch.draw(fill)
-                batch = batch_for_shader(line, "LINES", {"pos": plane.positions},
-                                         indices=plane.outline)
-                line.uniform_float("color", (*rim, strength))
-                line.uniform_float("lineWidth", LINE_WIDTH * scale)
-                line.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-                batch.draw(line)
+                gpu.matrix.load_projection_matrix(lifted)
+                # Planes lie inside of walls: what those hide is seen through them.
+                for test, share in (("LESS_EQUAL", 1.0), ("GREATER", BEHIND)):
+                    gpu.state.depth_test_set(test)
+                    draw_fill(plane, (*color, FILL_ALPHA * strength * share))
+                    draw_outline(plane, (*rim, strength * share), width)
     finally:
         gpu.state.blend_set(blend)
         gpu.state.depth_test_set(depth_test)
+
+
+def draw_fill(plane, rgba):
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    shader.uniform_float("color", rgba)
+    batch_for_shader(shader, "TRIS", {"pos": plane.positions}, indices=plane.triangles).draw(shader)
+
+
+def draw_outline(plane, rgba, width):
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    shader.uniform_float("color", rgba)
+    shader.uniform_float("lineWidth", width)
+    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+    batch_for_shader(shader, "LINES", {"pos": plane.positions}, indices=plane.outline).draw(shader)
 
 
 def draw_labels():

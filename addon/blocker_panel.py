@@ -63,7 +63,8 @@ class ANTIRADIANCE_UL_blockers(bpy.types.UIList):
     """The blocking planes among a scene's objects"""
 
     def filter_items(self, _context, data, name):
-        objects, helpers, shown = getattr(data, name), bpy.types.UI_UL_list, self.bitflag_filter_item
+        objects, helpers = getattr(data, name), bpy.types.UI_UL_list
+        shown = self.bitflag_filter_item
         flags = (helpers.filter_items_by_name(self.filter_name, shown, objects)
                  or [shown] * len(objects))
         # Blender inverts these flags itself, if asked to; what is no plane stays hidden.

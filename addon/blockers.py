@@ -45,7 +45,7 @@ class AntiradianceObject(bpy.types.PropertyGroup):
 class AntiradianceBlockers(bpy.types.PropertyGroup):
     """How a scene's blocking planes are shown"""
 
-    # The list's active row is the active object: nothing of its own to keep, or to draw out of step.
+    # The list's active row is the active object: nothing of its own to keep, or to get out of step.
     def _get_active(self):
         active = bpy.context.view_layer.objects.active
         return -1 if active is None else self.id_data.objects.find(active.name)

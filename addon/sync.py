@@ -181,7 +181,8 @@ class SceneWriter:
 
 def matrix_of(instance) -> np.ndarray:
     """(4, 4) f32, object -> world space"""
-    return np.array(instance.matrix_world, np.float32)
+    # From 5.0 on, numpy would keep the order that Blender has its matrices in: column by column.
+    return np.array(instance.matrix_world, np.float32, order="C")
 
 
 def display_name(instance) -> str:

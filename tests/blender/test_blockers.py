@@ -160,6 +160,15 @@ def test_filter_of_the_list(cases):
     assert named == ["Wall north", "Wall south"] and others == ["Door"]
 
 
+def test_menus(cases):
+    assert cases["menus"]["ANTIRADIANCE"] == {
+        "VIEW3D_MT_mesh_add": ["antiradiance.add_blocking_plane"],
+        "VIEW3D_MT_object": ["antiradiance.make_blocker", "antiradiance.clear_blocker",
+                             "antiradiance.blocking_plane_from_face"],
+        "VIEW3D_MT_edit_mesh_faces": ["antiradiance.blocking_plane_from_face"]}
+    assert not any(cases["menus"]["BLENDER_WORKBENCH"].values()), "other engines do not know them"
+
+
 def test_evaluation(cases):
     case = cases["evaluated"]
     inside, in_the_open = case["evaluation"]["per_plane"]

@@ -166,7 +166,7 @@ def test_blocking_planes(cases, of):
     assert turned["high"] == approx([11, 0, 3], abs=1e-6)
     assert one(named, "Subdivided")["triangles"] == 16 * 2
     assert set(of("blockers")) == {"Wall"}
-    assert cases["blockers"]["warnings"] == [], "nothing is said of their ray visibility"
+    assert "ray visibility" not in "\n".join(cases["blockers"]["warnings"])
 
 
 @pytest.mark.parametrize("case, part, objects", [

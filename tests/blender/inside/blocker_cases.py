@@ -7,6 +7,7 @@ argument: a folder for a library. Result: {CASE: what it returns}
 import math
 import pathlib
 import sys
+import types
 
 import addon_utils
 import bmesh
@@ -296,7 +297,7 @@ def rows():
 
 
 class Row:
-    """Takes what a list's row draws."""
+    """Takes what a list's row, or a menu, draws."""
 
     alignment = alert = active = None
 
@@ -310,6 +311,12 @@ class Row:
 
     def label(self, text):
         self._shown.append((text, bool(self.alert)))
+
+    def separator(self):
+        pass
+
+    def operator(self, name, **_arguments):
+        self._shown.append(name)
 
     def prop(self, _owner, name, icon, **_arguments):
         self._shown.append((name, self.active, icon))
@@ -354,6 +361,18 @@ def filtered():
         results.append([thing.name for thing, flag in zip(scene.objects, flags)
                         if bool(flag) != invert])
     return results
+
+
+def menus():
+    """The entries, with this engine and with another."""
+    scene, entries = empty_scene(), {}
+    for engine in ("ANTIRADIANCE", "BLENDER_WORKBENCH"):
+        scene.render.engine = engine
+        shown = entries.setdefault(engine, {})
+        for name, draw in recorder.addon("blocker_panel").MENUS:
+            drawn = shown.setdefault(name, [])
+            draw(types.SimpleNamespace(layout=Row(drawn)), bpy.context)
+    return entries
 
 
 def evaluated():
@@ -428,6 +447,6 @@ def add_on_off():
 
 CASES = (added, in_edit_mode, marked, problems, undone, wall_moved_anyhow,
          thin_limit, triangulated_with_window, triangulated_quad, two_shells, concave_face,
-         face_in_edit_mode, no_face, rows, shown_figures, filtered, evaluated,
+         face_in_edit_mode, no_face, rows, shown_figures, filtered, menus, evaluated,
          add_on_off)
 recorder.finish({case.__name__: case() for case in CASES})
