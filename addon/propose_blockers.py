@@ -91,12 +91,28 @@ def choose(context, thickness, min_area, limit, progress=None):
     candidates = [plane for plane in walls if not coincides(plane, there)]
     if not candidates:
         raise NothingFoundError("the walls that were found have some already")
-    links_cut, links = count_links(read_scene(depsgraph), candidates,
-                                   option_values(context.scene.antiradiance), progress)
-    best = [i for i in np.argsort(-links_cut, kind="stable")[:limit] if links_cut[i]]
-    if not best:
+    options = option_values(context.scene.antiradiance)
+    planes, share = best_of(
+        candidates, limit, lambda some: count_links(read_scene(depsgraph), some, options, progress))
+    if not planes:
         raise NothingFoundError("no other links cross the walls that were found")
-    return [candidates[i] for i in best], links_cut[best].sum() / links
+    return planes, share
+
+
+def best_of(planes, limit, count):
+    """([plane], those first that cut the most links; the share of all links that they cut)
+    count(planes) -> what count_links() gives
+
+    A link that crosses several planes counts for one of them alone. So no more than half of the
+    planes are given up at once, before links are counted anew for the rest.
+    """
+    while True:
+        links_cut, links = count(planes)
+        useful = [i for i in np.argsort(-links_cut, kind="stable") if links_cut[i]]
+        kept = useful[:max(limit, len(useful) // 2)]
+        planes = [planes[i] for i in kept]
+        if len(kept) == len(useful):
+            return planes, links_cut.sum() / links
 
 
 def read_scene(depsgraph):
