@@ -29,10 +29,10 @@ class ANTIRADIANCE_OT_propose_blocking_planes(bpy.types.Operator):
 
     thickness: bpy.props.FloatProperty(
         name="Thickness", description="Largest thickness of what counts as a wall",
-        subtype="DISTANCE", default=0.5, min=0.0, soft_min=0.01, soft_max=2.0)
+        subtype="DISTANCE", default=wall_planes.THICKNESS, min=0.0, soft_min=0.01, soft_max=2.0)
     min_area: bpy.props.FloatProperty(
         name="Smallest Area", description="Area below which planes are not worth having",
-        unit="AREA", default=0.25, min=0.01, soft_max=10.0)
+        unit="AREA", default=wall_planes.MIN_AREA, min=wall_planes.SMALLEST_FACE, soft_max=10.0)
     limit: bpy.props.IntProperty(
         name="Number", description="How many planes to add at most", default=32, min=1,
         soft_max=256)

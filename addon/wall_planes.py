@@ -13,6 +13,8 @@ import numpy as np
 from . import planar
 from .wall_junctions import close_junctions
 
+THICKNESS = 0.5  # m, of the thickest wall, by default
+MIN_AREA = 0.25  # m2, of the smallest plane, by default
 PARALLEL = np.cos(np.radians(1.0))
 COPLANAR = 0.002  # m, from the plane of the largest triangle
 # m2: what is less of a face, all in all, makes no wall and hides none.
@@ -87,9 +89,8 @@ def height_on(slope, points):
     return slope[0] + points @ slope[1:]
 
 
-def find_planes(lit, thickness=0.5, min_area=0.25) -> list[BlockingPlane]:
-    """The largest first. lit: what the core's lit_sides() returns; thickness: m, of the thickest
-    wall; min_area: m2, of the smallest plane"""
+def find_planes(lit, thickness=THICKNESS, min_area=MIN_AREA) -> list[BlockingPlane]:
+    """The largest first. lit: what the core's lit_sides() returns"""
     sides = lit_sides_of(lit)
     planes = []
     for family in families(sides, 2 * min_area):
