@@ -29,10 +29,10 @@ class ANTIRADIANCE_OT_propose_blocking_planes(bpy.types.Operator):
 
     thickness: bpy.props.FloatProperty(
         name="Thickness", description="Largest thickness of what counts as a wall",
-        subtype="DISTANCE", default=0.5, min=0.0, soft_min=0.01, soft_max=2.0)
+        subtype="DISTANCE", default=wall_planes.THICKNESS, min=0.0, soft_min=0.01, soft_max=2.0)
     min_area: bpy.props.FloatProperty(
         name="Smallest Area", description="Area below which planes are not worth having",
-        unit="AREA", default=0.25, min=0.01, soft_max=10.0)
+        unit="AREA", default=wall_planes.MIN_AREA, min=wall_planes.SMALLEST_FACE, soft_max=10.0)
     limit: bpy.props.IntProperty(
         name="Number", description="How many planes to add at most", default=32, min=1,
         soft_max=256)
@@ -91,12 +91,28 @@ def choose(context, thickness, min_area, limit, progress=None):
     candidates = [plane for plane in walls if not coincides(plane, there)]
     if not candidates:
         raise NothingFoundError("the walls that were found have some already")
-    links_cut, links = count_links(read_scene(depsgraph), candidates,
-                                   option_values(context.scene.antiradiance), progress)
-    best = [i for i in np.argsort(-links_cut, kind="stable")[:limit] if links_cut[i]]
-    if not best:
+    options = option_values(context.scene.antiradiance)
+    planes, share = best_of(
+        candidates, limit, lambda some: count_links(read_scene(depsgraph), some, options, progress))
+    if not planes:
         raise NothingFoundError("no other links cross the walls that were found")
-    return [candidates[i] for i in best], links_cut[best].sum() / links
+    return planes, share
+
+
+def best_of(planes, limit, count):
+    """([plane], those first that cut the most links; the share of all links that they cut)
+    count(planes) -> what count_links() gives
+
+    A link that crosses several planes counts for one of them alone. So no more than half of the
+    planes are given up at once, before links are counted anew for the rest.
+    """
+    while True:
+        links_cut, links = count(planes)
+        useful = [i for i in np.argsort(-links_cut, kind="stable") if links_cut[i]]
+        kept = useful[:max(limit, len(useful) // 2)]
+        planes = [planes[i] for i in kept]
+        if len(kept) == len(useful):
+            return planes, links_cut.sum() / links
 
 
 def read_scene(depsgraph):

@@ -13,6 +13,8 @@ import numpy as np
 from . import planar
 from .wall_junctions import close_junctions
 
+THICKNESS = 0.5  # m, of the thickest wall, by default
+MIN_AREA = 0.25  # m2, of the smallest plane, by default
 PARALLEL = np.cos(np.radians(1.0))
 COPLANAR = 0.002  # m, from the plane of the largest triangle
 # m2: what is less of a face, all in all, makes no wall and hides none.
@@ -87,13 +89,12 @@ def height_on(slope, points):
     return slope[0] + points @ slope[1:]
 
 
-def find_planes(lit, thickness=0.5, min_area=0.25) -> list[BlockingPlane]:
-    """The largest first. lit: what the core's lit_sides() returns; thickness: m, of the thickest
-    wall; min_area: m2, of the smallest plane"""
+def find_planes(lit, thickness=THICKNESS, min_area=MIN_AREA) -> list[BlockingPlane]:
+    """The largest first. lit: what the core's lit_sides() returns"""
     sides = lit_sides_of(lit)
     planes = []
     for family in families(sides, 2 * min_area):
-        planes += mid_planes(faces_of(sides, family), thickness)
+        planes += mid_planes(faces_of(sides, family), thickness + COPLANAR)
     areas = np.array([planar.areas(plane.triangles).sum() for plane in planes])
     largest = np.argsort(-areas)[:MOST_PLANES]
     planes = close_junctions([planes[i] for i in largest if areas[i] >= min_area], lit, thickness)
@@ -176,7 +177,8 @@ def pieces_below(face, faces, thickness):
     """(slope, (t, 3, 2) triangles) of the planes halfway to the faces that look down and are, in
     that place, the nearest below `face`. All in one arrangement of edges: so a piece spans no hole
     of either face."""
-    below = [other for other in faces if other is not face and may_lie_below(face, other, thickness)]
+    below = [other for other in faces
+             if other is not face and may_lie_below(face, other, thickness)]
     if all(other.looks_up for other in below):
         return
     near = [other.outline[meets_box(other.outline, face.box)] for other in below]
@@ -217,7 +219,7 @@ def is_substantial(triangles, min_area):
     edges = planar.outline(triangles)
     perimeter = np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).sum()
     area = planar.areas(triangles).sum()
-    return area >= min_area and 2 * area >= NARROWEST * perimeter
+    return area >= min_area and 0 < NARROWEST * perimeter <= 2 * area
 
 
 def finish(plane: MidPlane, cells) -> BlockingPlane:

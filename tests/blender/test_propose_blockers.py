@@ -13,6 +13,7 @@ GRID = 1e-4  # m, to which the planes' edges are rounded
 WALL_AREA = 4 * 2.6
 DOOR = ((1, -1, 0), (1.9, 1, 2.05))
 WINDOW = ((2.5, -1, 0.9), (3.5, 1, 2.1))
+SLOT = ((1, -1, 0.5), (1.3, 1, 2.0))  # narrower than walls may be thick
 OPENINGS_AREA = WALL_AREA - 0.9 * 2.05 - 1.0 * 1.2
 
 
@@ -46,7 +47,8 @@ def assert_rectangle(plane, low, high):
 
 def share_within(points, low, high, margin=0.002):
     points = np.asarray(points)
-    return ((points > np.add(low, margin)) & (points < np.subtract(high, margin))).all(axis=1).mean()
+    inside = (points > np.add(low, margin)) & (points < np.subtract(high, margin))
+    return inside.all(axis=1).mean()
 
 
 def samples(triangles, count=20_000):
@@ -62,7 +64,7 @@ def samples(triangles, count=20_000):
 
 def test_every_plane_is_what_its_polygons_are(cases):
     """Blender's triangles, the core's and the figures agree; so no polygon spans a hole."""
-    planes = [plane for case in cases.values() for entry in case
+    planes = [plane for name, case in cases.items() if name != "random_blocks" for entry in case
               for plane in (entry if isinstance(entry, list) else [entry])]
     assert len(planes) > 30
     for plane in planes:
@@ -102,20 +104,36 @@ def test_tilted_wall(cases):
     assert distances.max() == approx(math.hypot(4, 2.6), abs=GRID)
 
 
-@pytest.mark.parametrize("case, openings", [
-    ("slot", [((1, -1, 0.5), (1.3, 1, 2.0))]),
-    ("slot_with_an_edge_in_the_middle", [((1, -1, 0.5), (1.3, 1, 2.0))]),
-    ("slot_in_a_sheet", [((1, -1, 0.5), (1.3, 1, 2.0))]),
-    ("niche", [((1, -1, 0.5), (2, 1, 1.5))]),
-])
-def test_openings_narrower_than_walls_may_be_thick_stay_open(cases, case, openings):
+def assert_open(plane, low, high):
+    """It is a rectangle but for that part."""
+    lowest, highest = box(plane)
+    whole = np.prod((highest - lowest)[[0, 2]])
+    assert plane["area"] == approx(whole - (high[0] - low[0]) * (high[2] - low[2]), rel=1e-3)
+    assert share_within(samples(plane["triangles"]), low, high) == 0
+
+
+@pytest.mark.parametrize("case, opening", [
+    ("slot", SLOT), ("slot_in_a_sheet", SLOT), ("niche", ((1, -1, 0.5), (2, 1, 1.5)))])
+def test_small_openings_stay_open(cases, case, opening):
     (plane,) = cases[case]
-    low, high = box(plane)
-    whole = np.prod((high - low)[[0, 2]])
-    hole = sum((b[0] - a[0]) * (b[2] - a[2]) for a, b in openings)
-    assert plane["area"] == approx(whole - hole, rel=1e-3)
-    for opening in openings:
-        assert share_within(samples(plane["triangles"]), *opening) == 0
+    assert_open(plane, *opening)
+
+
+@pytest.mark.parametrize("edge_in_the_middle", [0, 1])
+def test_lit_reveals_alone_keep_a_slot_open(cases, edge_in_the_middle):
+    (plane,) = cases["slots_that_see_dark_sides"][edge_in_the_middle]
+    assert_open(plane, *SLOT)
+
+
+def test_panel_on_a_wall_makes_no_wall_of_its_own(cases):
+    (plane,) = cases["panel_on_a_wall"]
+    assert_rectangle(plane, (0, 0.1, 0), (4, 0.1, 2.6))
+
+
+def test_wall_goes_on_behind_a_pilaster(cases):
+    wall, pilaster = cases["pilaster"]
+    assert_rectangle(wall, (0, 0.1, 0), (4, 0.1, 2.6))
+    assert_rectangle(pilaster, (1.8, 0.12, 0), (2.2, 0.12, 2.6))
 
 
 def test_sheet_that_is_lit_from_both_sides(cases):
@@ -140,8 +158,8 @@ def test_dark_gap_is_part_of_the_wall(cases):
 
 
 def test_limits(cases):
-    thinner, thicker = cases["thickness"]
-    assert thinner == [] and len(thicker) == 1
+    thinner, as_thick = cases["thickness"]
+    assert thinner == [] and len(as_thick) == 1
     larger, smaller = cases["smallest_area"]  # of a table's top
     assert larger == []
     assert_rectangle(smaller[0], (0, 0, 0.72), (1, 0.5, 0.72))
@@ -186,6 +204,12 @@ def test_planes_do_not_drift_from_neighbour_to_neighbour(cases):
     assert len(planes) > 1
 
 
+def test_planes_lie_within_matter_however_blocks_are_heaped(cases):
+    planes, points, sticking_out = np.array(cases["random_blocks"]).T
+    assert planes.min() > 1 and planes.sum() > 250
+    assert points.sum() > 50_000 and sticking_out.sum() == 0
+
+
 def test_no_lit_sides_and_triangles_without_area(cases):
     assert cases["nothing"] == [[], []]
 
@@ -195,7 +219,7 @@ def operator(in_blender, root):
     return in_blender("propose_operator_cases.py", root / "blend_scenes")
 
 
-# The share of the links that planes cut. Measured .167, .460, .503, .351.
+# The share of the links that planes cut. Measured .167, .474, .506, .351.
 LEAST_SHARE = {"two_rooms": 0.14, "corridor": 0.4, "desks": 0.45, "office": 0.3}
 
 
@@ -303,6 +327,18 @@ def test_collection_is_the_scenes_own(operator):
 
 def test_summary(operator):
     (kind_of_one, one), (_, two), (kind_of_solo, solo) = operator["said"]
-    assert kind_of_one == ["INFO"] and one == "Added a blocking plane, which cuts 45.7 % of the links"
+    assert kind_of_one == ["INFO"]
+    assert one == "Added a blocking plane, which cuts 45.7 % of the links"
     assert two == "Added 2 blocking planes, which cut 45.7 % of the links"
     assert kind_of_solo == ["WARNING"] and "'Old' is solo" in solo
+
+
+def test_links_are_counted_anew_when_planes_are_given_up(operator):
+    case = operator["chosen"]
+    # One plane cuts nothing. Of the other twelve, half go at a time.
+    assert case["30"]["asked"] == [13] and len(case["30"]["sizes"]) == 12
+    assert case["30"]["share"] == approx(0.56)
+    assert case["2"]["asked"] == [13, 6, 2] and case["1"]["asked"] == [13, 6, 2, 1]
+    # The first two that are left had 20 and 19 links of their own before, and cut 40 together.
+    assert case["2"] == {**case["2"], "sizes": [20, 40], "share": approx(0.4)}
+    assert case["1"]["share"] == approx(0.2)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mid-planes of hand-made walls.
 
-Result: {CASE: [plane]}, the largest plane first, with its triangles as Blender makes them of its
-polygons, and points all over it.
+Result: {CASE: [plane] or a list of such}, the largest plane first, with its triangles as Blender
+makes them of its polygons, and points all over it; of "random_blocks" figures only.
 """
 
 import pathlib
@@ -30,7 +30,7 @@ def surface(boxes, holes=(), outside=True):
         return np.any([((middles > low) & (middles < high)).all(axis=-1) for low, high in some],
                       axis=0)
 
-    hollow = within(holes) if holes else np.zeros(middles.shape[:3], bool)
+    hollow = within(holes) if len(holes) else np.zeros(middles.shape[:3], bool)
     full = within(boxes) & ~hollow
     lit = ~full if outside else hollow
     quads = []
@@ -129,6 +129,17 @@ def lit_from_one_side():
     return found({**sides, "front": sides["corners"][..., 1].max(axis=1) < 0.1})
 
 
+def panel_on_a_wall():
+    """Only its front is lit; the wall's face goes on behind it."""
+    panel = np.array([[(1, -0.1, 1), (2, -0.1, 1), (2, -0.1, 2), (1, -0.1, 2)]], float)
+    return found(joined(lit(triangulated(surface([WALL]))), lit(triangulated(panel))))
+
+
+def pilaster():
+    """Where it stands, the wall is thicker and its middle elsewhere."""
+    return found(lit(triangulated(surface([WALL, ((1.8, 0.2, 0), (2.2, 0.24, 2.6))]))))
+
+
 def openings():
     return found(lit(triangulated(surface([WALL], [DOOR, WINDOW]), cuts=3, seed=2)))
 
@@ -137,10 +148,13 @@ def slot():
     return found(lit(triangulated(surface([WALL], [SLOT]))))
 
 
-def slot_with_an_edge_in_the_middle():
-    """The wall's halves stand back to back: no lit side goes through the plane of their middle."""
+def slots_that_see_dark_sides():
+    """Panels before and behind, which count as unlit: so within the slot most sides are, as within
+    matter. In the second wall no lit side crosses the middle, where its reveals have an edge."""
+    panels = [np.array([(-5, y, -5), (9, y, -5), (9, y, 9), (-5, y, 9)]) for y in (-0.3, 0.5)]
     halves = [((0, 0, 0), (4, 0.1, 2.6)), ((0, 0.1, 0), (4, 0.2, 2.6))]
-    return found(lit(triangulated(surface(halves, [SLOT]))))
+    return [found(joined(lit(triangulated(surface(boxes, [SLOT]))),
+                         lit(triangulated(panels), front=False))) for boxes in ([WALL], halves)]
 
 
 def slot_in_a_sheet():
@@ -180,7 +194,7 @@ def dark_air_gap():
 
 def thickness():
     sides = lit(triangulated(surface([WALL])))
-    return [found(sides, thickness=limit) for limit in (0.19, 0.21)]
+    return [found(sides, thickness=limit) for limit in (0.19, 0.2)]
 
 
 def smallest_area():
@@ -236,6 +250,25 @@ def drift():
                        (i, 0.0015 * i, 2)]) for i in range(6)]
     back = np.array([(0, 0.2, 0), (0, 0.2, 2), (6, 0.2, 2), (6, 0.2, 0)])
     return found(lit(triangulated([*quads, back])))
+
+
+def random_blocks():
+    """[(planes, points of them, points that stick out of the matter by more than 1 mm)]"""
+    results = []
+    for seed in range(40):
+        random = np.random.default_rng(seed)
+        low = random.integers(0, 20, (9, 3)) / 10
+        blocks = np.stack([low, low + random.integers(1, 16, (9, 3)) / 10], axis=1)
+        boxes, holes = blocks[:7], blocks[7:]
+        triangles = triangulated(surface(boxes, holes), cuts=1 + seed % 3, seed=seed)
+        turn = ASKEW if seed % 2 else np.eye(3)
+        planes = wall_planes.find_planes(lit(triangles @ turn.T), min_area=0.1)
+        points = np.concatenate([plane.sample(300) for plane in planes]) @ turn
+        within = [((points > low - margin) & (points < high + margin)).all(axis=1)
+                  for margin, some in ((0.001, boxes), (-0.001, holes)) for low, high in some]
+        solid = np.any(within[:7], axis=0) & ~np.any(within[7:], axis=0)
+        results.append((len(planes), len(points), int((~solid).sum())))
+    return results
 
 
 def nothing():

@@ -180,6 +180,27 @@ def of_another_scene():
     return {"other": len(other.collection.all_objects), "here": len(planes())}
 
 
+def chosen():
+    """Of planes that are sets of links, by what best_of() is to know of them."""
+    def count(planes):
+        asked.append(len(planes))
+        seen, cut = set(), []
+        for plane in planes:
+            cut.append(len(plane - seen))
+            seen |= plane
+        return np.array(cut), 100
+
+    # Links 0-19 cross all of the first three; another plane alone cuts 8 others.
+    small = [{50 + i} for i in range(8)]
+    planes = [set(range(20)), set(range(21)), set(range(40)), set(range(40, 48)), *small, set()]
+    result = {}
+    for limit in (1, 2, 30):
+        asked = []
+        best, share = propose_blockers.best_of(planes, limit, count)
+        result[limit] = {"sizes": [len(plane) for plane in best], "share": share, "asked": asked}
+    return result
+
+
 def said():
     empty_scene()
     plane = blocker(name="Old")
@@ -189,4 +210,5 @@ def said():
 
 
 recorder.finish({case.__name__: case() for case in (
-    scenes, again, settings, undone, refused, why_nothing, half_made, of_another_scene, said)})
+    scenes, again, settings, undone, refused, why_nothing, half_made, of_another_scene, chosen,
+    said)})
