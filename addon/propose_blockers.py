@@ -34,8 +34,14 @@ class ANTIRADIANCE_OT_propose_blocking_planes(bpy.types.Operator):
         name="Smallest Area", description="Area below which planes are not worth having",
         unit="AREA", default=wall_planes.MIN_AREA, min=wall_planes.SMALLEST_FACE, soft_max=10.0)
     limit: bpy.props.IntProperty(
-        name="Number", description="How many planes to add at most", default=32, min=1,
+        name="Number", description="How many planes to add at most", default=64, min=1,
         soft_max=256)
+
+    only_helpful: bpy.props.BoolProperty(
+        name="Only Helpful", default=True,
+        description="Add only planes that bring the light of Implicit visibility nearer to that of "
+                    "links tested with rays. Those of thin boards often do not, as light that "
+                    "passes beside a board is cut as well. Takes as long as a few renders")
 
     @classmethod
     def poll(cls, context):
@@ -52,7 +58,7 @@ class ANTIRADIANCE_OT_propose_blocking_planes(bpy.types.Operator):
         manager.progress_begin(0, 100)
         try:
             planes, share = choose(
-                context, self.thickness, self.min_area, self.limit,
+                context, self.thickness, self.min_area, self.limit, self.only_helpful,
                 lambda fraction, _stage: manager.progress_update(100 * fraction))
         except core.native.SceneError as failure:
             self.report({"ERROR"}, str(failure))
@@ -78,7 +84,7 @@ def summary(count, share, there):
     return {"INFO"}, text
 
 
-def choose(context, thickness, min_area, limit, progress=None):
+def choose(context, thickness, min_area, limit, only_helpful=False, progress=None):
     """([BlockingPlane], those first that cut the most links; the share of all links that they cut)
     """
     depsgraph = context.evaluated_depsgraph_get()
@@ -92,16 +98,31 @@ def choose(context, thickness, min_area, limit, progress=None):
     if not candidates:
         raise NothingFoundError("the walls that were found have some already")
     options = option_values(context.scene.antiradiance)
-    planes, share = best_of(
-        candidates, limit, lambda some: count_links(read_scene(depsgraph), some, options, progress))
+
+    def evaluated(planes, **how):
+        return evaluate(read_scene(depsgraph), planes, options, progress=progress, **how)
+
+    def count(planes):
+        rows, links = evaluated(planes)
+        return np.array([row["links_cut"] for row in rows]), links
+
+    planes, share = best_of(candidates, limit, count)
     if not planes:
         raise NothingFoundError("no other links cross the walls that were found")
+    if only_helpful:
+        rows, _links = evaluated(planes, light=True)
+        helpful = [plane for plane, row in zip(planes, rows) if row["helps"]]
+        if not helpful:
+            raise NothingFoundError("none of the walls that were found would bring the light "
+                                    "nearer to that of links tested with rays")
+        if len(helpful) < len(planes):
+            planes, share = best_of(helpful, limit, count)
     return planes, share
 
 
 def best_of(planes, limit, count):
     """([plane], those first that cut the most links; the share of all links that they cut)
-    count(planes) -> what count_links() gives
+    count(planes) -> (#planes,) links that each cuts; the number of links without planes
 
     A link that crosses several planes counts for one of them alone. So no more than half of the
     planes are given up at once, before links are counted anew for the rest.
@@ -121,9 +142,9 @@ def read_scene(depsgraph):
     return scene
 
 
-def count_links(scene, planes, options, progress):
-    """((#planes,) links that each cuts, those of the planes before it and of the scene's own
-    excepted; the number of links that there are without planes)"""
+def evaluate(scene, planes, options, **how):
+    """(what the core says of each plane, as it comes after the scene's own and those before it; the
+    number of links that there are without planes)"""
     rows = []
     for plane in planes:
         matrix = np.eye(4, dtype=np.float32)
@@ -131,9 +152,8 @@ def count_links(scene, planes, options, progress):
         rows.append(scene.add_blocker(
             NAME, positions=(plane.vertices - plane.centre).astype(np.float32), matrix=matrix,
             triangles=plane.triangles))
-    counted = core.native.evaluate_blockers(scene, options, rays=0, progress=progress)
-    return (np.array([counted["per_plane"][row]["links_cut"] for row in rows]),
-            max(1, counted["links"]))
+    found = core.native.evaluate_blockers(scene, options, rays=0, **how)
+    return [found["per_plane"][row] for row in rows], max(1, found["links"])
 
 
 def tree_of(objects) -> BVHTree:

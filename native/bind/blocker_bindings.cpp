@@ -19,7 +19,7 @@ py::dict to_dict(const BlockerEvaluation::Plane& plane) {
                     "radiance_cut"_a = plane.cut.radiance,
                     "occluded_cut"_a = plane.occluded_cut.total(),
                     "occluded_radiance_cut"_a = plane.occluded_cut.radiance,
-                    "wrongly_cut"_a = plane.wrongly_cut);
+                    "wrongly_cut"_a = plane.wrongly_cut, "helps"_a = plane.helps);
 }
 
 py::object to_dict(const std::optional<SolutionError>& error) {
@@ -39,6 +39,7 @@ py::dict to_dict(const BlockerEvaluation& evaluation) {
     }
     py::dict result = to_dict(sum);
     result.attr("pop")("name");
+    result.attr("pop")("helps");
     result["cancelled"] = false;
     result["links"] = evaluation.links.total();
     result["seconds"] = evaluation.seconds;
@@ -54,13 +55,14 @@ py::dict to_dict(const BlockerEvaluation& evaluation) {
     return result;
 }
 
-py::dict evaluate(const Scene& scene, const py::dict& option_values, int rays, bool whole,
+py::dict evaluate(const Scene& scene, const py::dict& option_values, int rays, bool all_links,
+                  bool light,
                   py::object progress_callback, py::object cancelled) {
     const Options options = to_options(option_values);
     BlockerEvaluation evaluation;
     const bool done = run_with_callbacks(
         std::move(progress_callback), std::move(cancelled), [&](Progress& progress) {
-            evaluation = evaluate_blockers(scene, options, {rays, whole}, progress);
+            evaluation = evaluate_blockers(scene, options, {rays, all_links, light}, progress);
         });
     return done ? to_dict(evaluation) : py::dict("cancelled"_a = true);
 }
@@ -99,16 +101,17 @@ py::dict lit_sides(Scene scene) {
 
 void bind_blockers(py::module_& module) {
     module.def("evaluate_blockers", &evaluate, "scene"_a, "options"_a, py::kw_only(), "rays"_a = 64,
-               "whole"_a = false, "progress"_a = py::none(), "cancelled"_a = py::none(),
+               "all_links"_a = false, "light"_a = false, "progress"_a = py::none(), "cancelled"_a = py::none(),
                "What the scene's blocking planes cut of the links that IMPLICIT visibility makes "
                "without them, by `rays` rays a link that is cut (0: occlusion is not counted). A "
                "dict: cancelled; links; links_cut, radiance_cut; occluded_cut, "
                "occluded_radiance_cut, that no ray gets through; wrongly_cut, links of light whose "
                "ends see each other, centre from centre; seconds; "
-               "per_plane, a list of dicts of these and a name. whole: all links are tested, and "
-               "the scene is solved: also occluded, occluded_radiance, and without_planes and "
-               "with_planes, dicts of relative_rms, bias, largest_leak, converged against "
-               "ray-tested links; else None. Callbacks as in Session.render. Raises SceneError");
+               "per_plane, a list of dicts of these and a name. all_links: links that are not cut "
+               "are tested as well: occluded, occluded_radiance; else None. light: the scene is "
+               "solved: without_planes and with_planes, dicts of relative_rms, bias, largest_leak, "
+               "converged against ray-tested links, else None; of planes, whether each helps to "
+               "bring the light nearer to that. Callbacks as in Session.render. Raises SceneError");
     module.def("lit_sides", &lit_sides, "scene"_a,
                "Which sides of a scene's triangles light reaches: a dict of corners (t,3,3) f32, "
                "m, world space, counter-clockwise from the front; front, back (t,) bool; objects, "

@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "links/cut_links.h"
+#include "pipeline/helpful_blockers.h"
 #include "pipeline/model.h"
 #include "prune/prune.h"
 #include "prune/ray_visibility.h"
@@ -37,7 +38,7 @@ std::vector<std::uint8_t> where(std::span<const BlockerId> cut, bool is_cut) {
     return result;
 }
 
-// #links, 1: no ray gets through. Links that are not cut are tested only in a whole evaluation.
+// #links, 1: no ray gets through.
 std::vector<std::uint8_t> find_occluded(const Scene& scene, const Model& model,
                                         std::span<const BlockerId> cut,
                                         const BlockerEvaluationOptions& how, Progress& progress) {
@@ -49,7 +50,7 @@ std::vector<std::uint8_t> find_occluded(const Scene& scene, const Model& model,
         return static_cast<std::uint8_t>(v == LinkVisibility::kNone);
     };
     std::vector<std::uint8_t> occluded(cut.size(), 0);
-    if (how.whole) {
+    if (how.all_links) {
         std::ranges::transform(trace(model.links), occluded.begin(), is_occluded);
         return occluded;
     }
@@ -61,6 +62,50 @@ std::vector<std::uint8_t> find_occluded(const Scene& scene, const Model& model,
     return occluded;
 }
 
+void test_with_rays(const Scene& scene, const Model& model, std::span<const BlockerId> cut,
+                    const BlockerEvaluationOptions& how, BlockerEvaluation& evaluation,
+                    Progress& progress) {
+    const auto plane = [&](std::size_t l) -> BlockerEvaluation::Plane& {
+        return evaluation.per_plane[static_cast<std::size_t>(cut[l])];
+    };
+    for (const Segment& segment : model.links.segments) {
+        for (std::uint32_t l = segment.begin; l < segment.end; ++l) {
+            const Link& link = model.links.links[l];
+            if (cut[l] != kNone && link.form_factor > 0 &&
+                centers_see(model, link.source, segment.receiver))
+                ++plane(l).wrongly_cut;
+        }
+    }
+    const std::vector<std::uint8_t> occluded = find_occluded(scene, model, cut, how, progress);
+    LinkCount all;
+    for (std::size_t l = 0; l < cut.size(); ++l) {
+        if (!occluded[l]) continue;
+        count(model.links.links[l], all);
+        if (cut[l] != kNone) count(model.links.links[l], plane(l).occluded_cut);
+    }
+    if (how.all_links) evaluation.occluded = all;
+}
+
+void compare_light(const Scene& scene, const Options& options, const Model& model,
+                   std::span<const BlockerId> cut, BlockerEvaluation& evaluation,
+                   Progress& progress) {
+    constexpr int kReferenceRays = 16;  // a + link, as in an evaluation of pruning
+    const ReferenceSolution reference(scene, options, model, {{kReferenceRays}}, progress);
+    const Solution without = reference.solve(model.links, {}, progress);
+    evaluation.without_planes = reference.error_of(without);
+    evaluation.with_planes =
+        reference.error_of(remove_links(model.links, where(cut, true)), progress);
+
+    std::vector<vec3> error = without.irradiance;
+    for (std::size_t n = 0; n < error.size(); ++n)
+        error[n] -= reference.solution().irradiance[n];
+    const std::vector<std::uint8_t> helps =
+        find_helpful_blockers(model.tree, model.links, cut, evaluation.per_plane.size(),
+                              without.radiance, error, progress);
+    for (std::size_t b = 0; b < helps.size(); ++b)
+        evaluation.per_plane[b].helps = helps[b] != 0;
+}
+
 }  // namespace
 
 BlockerEvaluation evaluate_blockers(Scene scene, Options options,
@@ -70,7 +115,7 @@ BlockerEvaluation evaluate_blockers(Scene scene, Options options,
     options.visibility = Visibility::kImplicit;
     BlockerEvaluation evaluation;
     for (const Blocker& blocker : blockers)
-        evaluation.per_plane.push_back({blocker.name, {}, {}, 0});
+        evaluation.per_plane.emplace_back().name = blocker.name;
     const Model model = build_model(scene, options, progress);
     if (model.tree.size() == 0) return evaluation;
     evaluation.links = {model.links.radiance_count, model.links.antiradiance_count};
@@ -84,32 +129,8 @@ BlockerEvaluation evaluate_blockers(Scene scene, Options options,
         if (cut[l] != kNone)
             count(model.links.links[l], evaluation.per_plane[static_cast<std::size_t>(cut[l])].cut);
     }
-    if (how.rays == 0) return evaluation;
-
-    for (const Segment& segment : model.links.segments) {
-        for (std::uint32_t l = segment.begin; l < segment.end; ++l) {
-            const Link& link = model.links.links[l];
-            if (cut[l] != kNone && link.form_factor > 0 &&
-                centers_see(model, link.source, segment.receiver))
-                ++evaluation.per_plane[static_cast<std::size_t>(cut[l])].wrongly_cut;
-        }
-    }
-    const std::vector<std::uint8_t> occluded = find_occluded(scene, model, cut, how, progress);
-    LinkCount all;
-    for (std::size_t l = 0; l < cut.size(); ++l) {
-        if (!occluded[l]) continue;
-        const Link& link = model.links.links[l];
-        count(link, all);
-        if (cut[l] != kNone)
-            count(link, evaluation.per_plane[static_cast<std::size_t>(cut[l])].occluded_cut);
-    }
-    if (!how.whole) return evaluation;
-    evaluation.occluded = all;
-    constexpr int kReferenceRays = 16;  // a + link, as in an evaluation of pruning
-    const ReferenceSolution reference(scene, options, model, {{kReferenceRays}}, progress);
-    evaluation.without_planes = reference.error_of(model.links, progress);
-    evaluation.with_planes =
-        reference.error_of(remove_links(model.links, where(cut, true)), progress);
+    if (how.rays > 0) test_with_rays(scene, model, cut, how, evaluation, progress);
+    if (how.light) compare_light(scene, options, model, cut, evaluation, progress);
     return evaluation;
 }
 

@@ -24,19 +24,21 @@ struct BlockerEvaluation {
         // as it does not lie inside of a wall there. Other links that rays get through are seen in
         // part, past an edge of the wall.
         std::size_t wrongly_cut = 0;
+        bool helps = false;  // find_helpful_blockers(); with `light`
     };
     std::vector<Plane> per_plane;  // #Scene::blockers
     double seconds = 0;            // for finding what is cut
 
-    // Of a whole evaluation:
-    std::optional<LinkCount> occluded;  // all links that no ray gets through
-    // Of IMPLICIT over all links and over those that the planes leave, against ray-tested links.
+    std::optional<LinkCount> occluded;  // with `all_links`: how many no ray gets through
+    // With `light`: of IMPLICIT's solution over all links and over those that the planes leave,
+    // against ray-tested ones.
     std::optional<SolutionError> without_planes, with_planes;
 };
 
 struct BlockerEvaluationOptions {
-    int rays = 64;       // a link that is cut; 0: it is counted, and that is all
-    bool whole = false;  // all links are tested, and the scene is solved
+    int rays = 64;           // a link that is cut; 0: it is counted, and that is all
+    bool all_links = false;  // links that are not cut are tested as well
+    bool light = false;      // the scene is solved
 };
 
 // Makes the link mesh of IMPLICIT visibility without the scene's planes, and cuts it. The

@@ -112,7 +112,10 @@ Solution ReferenceSolution::solve(const LinkSet& links, std::span<const float> r
 
 SolutionError ReferenceSolution::error_of(const LinkSet& links, std::span<const float> row_scale,
                                           Progress& progress) const {
-    const Solution test = solve(links, row_scale, progress);
+    return error_of(solve(links, row_scale, progress));
+}
+
+SolutionError ReferenceSolution::error_of(const Solution& test) const {
     SolutionError error;
     measure(model_.tree, direct_, test.irradiance, solution_.irradiance, error);
     error.converged = test.converged && solution_.converged;

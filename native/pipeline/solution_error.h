@@ -52,12 +52,14 @@ public:
         return error_of(links, {}, progress);
     }
 
+    [[nodiscard]] SolutionError error_of(const Solution& test) const;
+
+    [[nodiscard]] Solution solve(const LinkSet& links, std::span<const float> row_scale,
+                                 Progress& progress) const;
+    [[nodiscard]] const Solution& solution() const { return solution_; }
     [[nodiscard]] const TransportInput& input() const { return input_; }
 
 private:
-    [[nodiscard]] Solution solve(const LinkSet& links, std::span<const float> row_scale,
-                                 Progress& progress) const;
-
     Options options_;
     const Model& model_;
     std::vector<vec3> direct_;  // #nodes, W/m2

@@ -67,7 +67,7 @@ def add_proposed(_name):
 def evaluate(scene):
     native_scene = propose_blockers.read_scene(bpy.context.evaluated_depsgraph_get())
     return core.native.evaluate_blockers(native_scene, option_values(scene.antiradiance),
-                                         whole=True)
+                                         all_links=True, light=True)
 
 
 def render(scene, visibility, report):

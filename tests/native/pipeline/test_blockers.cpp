@@ -171,7 +171,7 @@ TEST(Blockers, ADoorStaysOpen) {
     options.max_patch_size = 0.9F;
     Progress progress;
     const BlockerEvaluation e =
-        evaluate_blockers(scene, options, {.rays = 16, .whole = true}, progress);
+        evaluate_blockers(scene, options, {.rays = 16, .all_links = true, .light = true}, progress);
     LinkCount cut;
     LinkCount occluded_cut;
     std::size_t wrongly_cut = 0;
@@ -198,7 +198,7 @@ TEST(Blockers, AQuickEvaluationAgreesWithAWholeOne) {
     const BlockerEvaluation counted = evaluate_blockers(scene, options, {.rays = 0}, progress);
     const BlockerEvaluation traced = evaluate_blockers(scene, options, {.rays = 16}, progress);
     const BlockerEvaluation whole =
-        evaluate_blockers(scene, options, {.rays = 16, .whole = true}, progress);
+        evaluate_blockers(scene, options, {.rays = 16, .all_links = true, .light = true}, progress);
     ASSERT_EQ(counted.per_plane.size(), 1U);
     for (const BlockerEvaluation* e : {&counted, &traced, &whole})
         EXPECT_EQ(e->per_plane[0].cut.total(), counted.per_plane[0].cut.total());
