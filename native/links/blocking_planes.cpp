@@ -34,24 +34,36 @@ BlockingPlanes::BlockingPlanes(std::span<const Blocker> blockers, float epsilon)
     rays_.emplace(planes);
 }
 
-TriangleId BlockingPlanes::first_triangle(const vec3& a, const vec3& b) const {
+RayHit BlockingPlanes::first_hit(const vec3& a, const vec3& b) const {
     const vec3 d = b - a;
     const float length = glm::length(d);
-    if (empty() || length <= 2 * epsilon_) return kNone;
-    return rays_->intersect(a, d / length, epsilon_, length - epsilon_).triangle;
+    if (empty() || length <= 2 * epsilon_) return {};
+    return rays_->intersect(a, d / length, epsilon_, length - epsilon_);
 }
 
 BlockerId BlockingPlanes::crossed(const vec3& a, const vec3& b) const {
-    const TriangleId t = first_triangle(a, b);
-    return t == kNone ? kNone : triangle_blocker_[static_cast<std::size_t>(t)];
+    const RayHit hit = first_hit(a, b);
+    return hit.hit() ? triangle_blocker_[static_cast<std::size_t>(hit.triangle)] : kNone;
+}
+
+void BlockingPlanes::all_crossed(const vec3& a, const vec3& b,
+                                 std::vector<BlockerId>& planes) const {
+    planes.clear();
+    vec3 from = a;
+    for (RayHit hit = first_hit(from, b); hit.hit(); hit = first_hit(from, b)) {
+        const BlockerId plane = triangle_blocker_[static_cast<std::size_t>(hit.triangle)];
+        if (std::ranges::find(planes, plane) == planes.end()) planes.push_back(plane);
+        from += glm::normalize(b - from) * hit.distance;
+    }
 }
 
 BlockerId BlockingPlanes::separating(const Hull& a, const Hull& b) const {
-    const TriangleId t = first_triangle(a.center, b.center);
-    if (t == kNone) return kNone;
-    const RegionId region = regions_.of_surface[static_cast<std::size_t>(t)];
+    const RayHit hit = first_hit(a.center, b.center);
+    if (!hit.hit()) return kNone;
+    const auto t = static_cast<std::size_t>(hit.triangle);
+    const RegionId region = regions_.of_surface[t];
     if (region == kNone || !ShaftTest(regions_).blocks(region, a.corners, b.corners)) return kNone;
-    return triangle_blocker_[static_cast<std::size_t>(t)];
+    return triangle_blocker_[t];
 }
 
 bool BlockingPlanes::near(const vec3& point, float distance) const {

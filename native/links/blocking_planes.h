@@ -26,6 +26,9 @@ public:
     // does not cross it. From any thread.
     [[nodiscard]] BlockerId crossed(const vec3& a, const vec3& b) const;
 
+    // All of them, each once, in the order in which they are met.
+    void all_crossed(const vec3& a, const vec3& b, std::vector<BlockerId>& planes) const;
+
     // A convex hull, m, and a point in it.
     struct Hull {
         vec3 center;
@@ -39,7 +42,7 @@ public:
     [[nodiscard]] bool near(const vec3& point, float distance) const;
 
 private:
-    [[nodiscard]] TriangleId first_triangle(const vec3& a, const vec3& b) const;
+    [[nodiscard]] RayHit first_hit(const vec3& a, const vec3& b) const;
 
     struct Box {
         vec3 low, high;  // m

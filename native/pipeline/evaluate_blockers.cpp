@@ -87,8 +87,8 @@ void test_with_rays(const Scene& scene, const Model& model, std::span<const Bloc
 }
 
 void compare_light(const Scene& scene, const Options& options, const Model& model,
-                   std::span<const BlockerId> cut, BlockerEvaluation& evaluation,
-                   Progress& progress) {
+                   const BlockingPlanes& planes, std::span<const BlockerId> cut,
+                   BlockerEvaluation& evaluation, Progress& progress) {
     constexpr int kReferenceRays = 16;  // a + link, as in an evaluation of pruning
     const ReferenceSolution reference(scene, options, model, {{kReferenceRays}}, progress);
     const Solution without = reference.solve(model.links, {}, progress);
@@ -100,7 +100,7 @@ void compare_light(const Scene& scene, const Options& options, const Model& mode
     for (std::size_t n = 0; n < error.size(); ++n)
         error[n] -= reference.solution().irradiance[n];
     const std::vector<std::uint8_t> helps =
-        find_helpful_blockers(model.tree, model.links, cut, evaluation.per_plane.size(),
+        find_helpful_blockers(model.tree, model.links, planes, evaluation.per_plane.size(), cut,
                               without.radiance, error, progress);
     for (std::size_t b = 0; b < helps.size(); ++b)
         evaluation.per_plane[b].helps = helps[b] != 0;
@@ -130,7 +130,7 @@ BlockerEvaluation evaluate_blockers(Scene scene, Options options,
             count(model.links.links[l], evaluation.per_plane[static_cast<std::size_t>(cut[l])].cut);
     }
     if (how.rays > 0) test_with_rays(scene, model, cut, how, evaluation, progress);
-    if (how.light) compare_light(scene, options, model, cut, evaluation, progress);
+    if (how.light) compare_light(scene, options, model, planes, cut, evaluation, progress);
     return evaluation;
 }
 

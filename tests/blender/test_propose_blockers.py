@@ -263,6 +263,36 @@ def test_doors_of_the_corridor_stay_open(operator):
         assert area(triangles_of(wall)) == approx(16.84 * 2.6 - 5 * 0.95 * 2.05, rel=0.01)
 
 
+def errors(found):
+    return [found[which]["relative_rms"] for which in ("without_planes", "with_planes")]
+
+
+def test_planes_of_the_corridor_stand_for_its_walls(operator):
+    """What the specification asks for: 45 % of all links, 90 % of the occluded links of light, and
+    no more error against ray-tested links than without planes. Measured 47 %, 90.1 % with 32 of
+    the planes, .054 -> .036."""
+    found = operator["light"]["corridor"]
+    assert found["links_cut"] >= 0.45 * found["links"]
+    assert found["occluded_radiance_cut"] >= 0.9 * found["occluded_radiance"]
+    without, with_planes = errors(found)
+    assert with_planes < without
+    assert found["wrongly_cut"] < 0.001 * found["radiance_cut"]
+
+
+def test_helpful_planes_bring_the_light_nearer(operator):
+    """All 32 planes of the office, shelves and table tops among them, took its error from .066 to
+    .116, the 14 that help to .055."""
+    light = operator["light"]
+    without, with_all = errors(light["office"])
+    assert with_all > without, "else there is nothing to choose"
+    without, with_helpful = errors(light["office, helpful"])
+    assert with_helpful < without
+    assert len(light["office, helpful"]["per_plane"]) >= 5
+    without, with_helpful = errors(light["corridor, helpful"])
+    assert with_helpful < without
+    assert light["corridor, helpful"]["links_cut"] >= 0.45 * light["corridor, helpful"]["links"]
+
+
 def test_doorway_of_the_two_rooms_stays_open(operator):
     case = operator["scenes"]["two_rooms"]
     assert share_within(points_of(case), (4.0, 1.5, 0), (4.2, 3.1, 2.15)) == 0

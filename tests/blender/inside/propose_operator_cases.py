@@ -39,7 +39,7 @@ def of_scene(name):
     open_scene(name)
     before = counts()
     begin = time.perf_counter()
-    propose()
+    propose(only_helpful=False, limit=32)
     seconds = time.perf_counter() - begin
     bpy.context.view_layer.update()
     scene = propose_blockers.read_scene(bpy.context.evaluated_depsgraph_get())
@@ -69,6 +69,23 @@ def described(plane):
 
 def scenes():
     return {name: of_scene(name) for name in ("two_rooms", "corridor", "desks", "office")}
+
+
+def evaluation(name, settings, **how):
+    """What the core says of all planes that are proposed with these settings."""
+    open_scene(name)
+    propose(**settings)
+    bpy.context.view_layer.update()
+    scene = propose_blockers.read_scene(bpy.context.evaluated_depsgraph_get())
+    options = recorder.addon("properties").option_values(bpy.context.scene.antiradiance)
+    return core.native.evaluate_blockers(scene, options, light=True, **how)
+
+
+def light():
+    return {"corridor": evaluation("corridor", {"only_helpful": False}, rays=64, all_links=True),
+            "corridor, helpful": evaluation("corridor", {}, rays=0),
+            "office": evaluation("office", {"only_helpful": False, "limit": 32}, rays=0),
+            "office, helpful": evaluation("office", {}, rays=0)}
 
 
 def again():
@@ -210,5 +227,5 @@ def said():
 
 
 recorder.finish({case.__name__: case() for case in (
-    scenes, again, settings, undone, refused, why_nothing, half_made, of_another_scene, chosen,
-    said)})
+    scenes, light, again, settings, undone, refused, why_nothing, half_made, of_another_scene,
+    chosen, said)})

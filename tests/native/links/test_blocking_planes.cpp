@@ -46,6 +46,22 @@ TEST(BlockingPlanes, TheFirstOnTheWayCuts) {
     EXPECT_EQ(planes.crossed({1, 0, -2}, {1, 0, 2}), kNone) << "lies in it";
 }
 
+TEST(BlockingPlanes, AllOnTheWayAreFoundOnce) {
+    Scene scene = two_planes();
+    Blocker& near = scene.blockers[0];  // twice across the way
+    for (int i = 0; i < 4; ++i)
+        near.positions.push_back(near.positions[static_cast<std::size_t>(i)] + vec3(0.5F, 0, 0));
+    near.triangles.insert(near.triangles.end(), {{4, 5, 6}, {4, 6, 7}});
+    const BlockingPlanes planes = planes_of(scene);
+    std::vector<BlockerId> found{7};
+    planes.all_crossed({0, 0.3F, 0.1F}, {3, 0, 0}, found);
+    EXPECT_EQ(found, (std::vector<BlockerId>{0, 1}));
+    planes.all_crossed({3, 0, 0}, {0, 0.3F, 0.1F}, found);
+    EXPECT_EQ(found, (std::vector<BlockerId>{1, 0}));
+    planes.all_crossed({0, 0, 2}, {3, 0, 2}, found);
+    EXPECT_TRUE(found.empty());
+}
+
 TEST(BlockingPlanes, WhatEndsOnAPlaneDoesNotCrossIt) {
     const BlockingPlanes planes = planes_of(two_planes());
     EXPECT_EQ(planes.crossed({1, 0, 0}, {1.9F, 0.4F, 0}), kNone);

@@ -222,6 +222,17 @@ TEST(Blockers, APlaneInTheOpenIsFoundWrong) {
     EXPECT_GT(e.per_plane[0].wrongly_cut, e.per_plane[0].cut.radiance / 2);
 }
 
+TEST(Blockers, PlanesThatHelpAreToldApart) {
+    Scene scene = two_sealed_rooms();
+    test::add_plane(scene, "In the open", {2, 0, 0}, {0, 4, 0}, {0, 0, 2.7F});
+    add_middle_plane(scene);
+    Progress progress;
+    const BlockerEvaluation e = evaluate_blockers(scene, options_of(Visibility::kImplicit),
+                                                  {.rays = 0, .light = true}, progress);
+    EXPECT_FALSE(e.per_plane[0].helps);
+    EXPECT_TRUE(e.per_plane[1].helps);
+}
+
 TEST(Blockers, ThePlaneInTheWrongPlaceIsNamed) {
     Scene scene = two_sealed_rooms();
     add_middle_plane(scene);
