@@ -155,14 +155,14 @@ std::multiset<Key> keys_of(const std::vector<RawLink>& links, const std::vector<
     return keys;
 }
 
-class CutLinks : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(, CutLinks, testing::Bool(), [](const auto& info) {
+class SeparatedPairs : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(, SeparatedPairs, testing::Bool(), [](const auto& info) {
     return std::string(info.param ? "WithAntiradiance" : "RadianceOnly");
 });
 
 // On a mesh that does not grow, pairs that are dropped whole and links that are cut one by one make
 // up what cutting one by one finds.
-TEST_P(CutLinks, DroppedPairsAreWhatWouldBeCut) {
+TEST_P(SeparatedPairs, AreWhatWouldBeCut) {
     Scene scene = sheets();
     test::add_plane(scene, "Part", {2, 0, 0}, {0, 1.3F, 0}, {0, 0, 1.7F});
     test::add_plane(scene, "Rest", {2, 1.3F, 0}, {0, 0.7F, 0}, {0, 0, 1.7F});
@@ -191,16 +191,17 @@ TEST_P(CutLinks, DroppedPairsAreWhatWouldBeCut) {
         dropped += pair.links.total();
     EXPECT_GT(dropped, count(cut_of_rest)) << "most of them need not be made";
     EXPECT_GT(count(cut_of_rest), 0U);
-    // Links that turn out to carry nothing are counted as well.
-    EXPECT_GE(dropped + count(cut_of_rest), count(cut_of_all));
-    EXPECT_LE(dropped + count(cut_of_rest), count(cut_of_all) * 21 / 20);
+    // Links that turn out to carry nothing are counted as well, and those of touching pairs, which
+    // are spread over several bins, once.
+    const auto all_cut = static_cast<double>(count(cut_of_all));
+    EXPECT_NEAR(static_cast<double>(dropped + count(cut_of_rest)), all_cut, 0.05 * all_cut);
 }
 
-TEST(CutLinks, SortedLinksAreCutAlike) {
+TEST(FindCutLinks, SortedLinksAreCutAlike) {
     Scene scene = sheets();
     test::add_plane(scene, "Part", {2, 0, 0}, {0, 1.3F, 0}, {0, 0, 1.7F});
     const BlockingPlanes planes = planes_of(scene);
-    const test::LinkedScene linked(scene, 0.6F, {});
+    const test::LinkedScene linked(scene, 0.6F, {.least_edge = 0.3F});
     Progress progress;
     const std::vector<BlockerId> raw =
         find_cut_links(linked.tree, linked.refined.links, planes, progress);
@@ -212,7 +213,7 @@ TEST(CutLinks, SortedLinksAreCutAlike) {
 }
 
 // A cluster on both sides of a plane is no end of a link: its centre would decide for all of it.
-TEST(CutLinks, ClustersAreRefinedAtAPlane) {
+TEST(FindCutLinks, ClustersAreRefinedAtAPlane) {
     Scene scene;
     const int grey = test::add_material(scene, vec3(0.5F));
     for (int i = 0; i < 40; ++i) {
@@ -226,6 +227,7 @@ TEST(CutLinks, ClustersAreRefinedAtAPlane) {
     RefineOptions options;
     options.cluster_links = true;
     options.antiradiance = false;
+    options.least_edge = 1;
     options.planes = &planes;
     const test::LinkedScene linked(scene, 1, options, 32);
     int clusters = 0;
