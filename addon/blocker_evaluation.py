@@ -2,7 +2,7 @@
 """What the blocking planes do to the light, judged with rays, and the words for it."""
 import bpy
 
-from . import core, render_log
+from . import blockers, core, render_log
 from .properties import option_values
 from .sync import SceneWriter
 
@@ -35,7 +35,7 @@ class ANTIRADIANCE_OT_evaluate_blocking_planes(bpy.types.Operator):
         finally:
             manager.progress_end()
         render_log.remember_evaluation(context.scene.name, evaluation)
-        self.report({"WARNING" if evaluation["wrongly_cut"] else "INFO"}, totals(evaluation))
+        self.report({"WARNING" if guilty(evaluation) else "INFO"}, totals(evaluation))
         return {"FINISHED"}
 
 
@@ -44,16 +44,21 @@ def totals(evaluation: dict) -> str:
             "{wrongly_cut:,} wrongly").format_map(evaluation)
 
 
+def guilty(evaluation: dict) -> list[str]:
+    """Names of the planes that take away light that should be there."""
+    return [plane["name"] for plane in evaluation["per_plane"] if blockers.darkens(plane)]
+
+
 def verdict(evaluation: dict) -> str:
     """What the figures mean, and what to do."""
     if not evaluation["links_cut"]:
         return "No link is cut. A plane has to lie between the surfaces that it is to part"
-    guilty = [plane["name"] for plane in evaluation["per_plane"] if plane["wrongly_cut"]]
-    if not guilty:
-        return "Nothing is cut wrongly: no light gets through where the planes are"
-    return ("Wrongly cut links carry light that at least partly gets past the surfaces, and that "
-            "is lost now. Keep these planes inside of their walls, away from edges and openings: "
-            + ", ".join(guilty))
+    names = guilty(evaluation)
+    if not names:
+        return "The planes take no light away: surfaces stop it where they are"
+    return ("No surface lies between the ends of wrongly cut links, whose light is lost now. Keep "
+            "these planes inside of their walls, away from edges and openings: "
+            + ", ".join(names))
 
 
 CLASSES = (ANTIRADIANCE_OT_evaluate_blocking_planes,)

@@ -3,7 +3,12 @@
 import bpy
 
 from . import blockers, render_log
-from .blocker_evaluation import ANTIRADIANCE_OT_evaluate_blocking_planes, totals, verdict
+from .blocker_evaluation import (
+    ANTIRADIANCE_OT_evaluate_blocking_planes,
+    guilty,
+    totals,
+    verdict,
+)
 from .blocker_operators import (
     ANTIRADIANCE_OT_add_blocking_plane,
     ANTIRADIANCE_OT_blocking_plane_from_face,
@@ -40,9 +45,8 @@ def columns(context, name: str) -> list[tuple[str, int | None, bool]]:
     evaluation = render_log.last_evaluation(scene_name)
     if evaluation is not None:
         judged = blockers.figures_of(name, evaluation["per_plane"]) or {}
-        wrongly = judged.get("wrongly_cut")
         shown += [("Blocked", judged.get("occluded_cut"), False),
-                  ("Wrong", wrongly, bool(wrongly))]
+                  ("Wrong", judged.get("wrongly_cut"), bool(judged) and blockers.darkens(judged))]
     return shown
 
 
@@ -121,7 +125,7 @@ class RENDER_PT_antiradiance_blockers(EnginePanel, bpy.types.Panel):
         if evaluation is not None:
             draw_message(layout, context, totals(evaluation), "INFO")
             draw_message(layout, context, verdict(evaluation),
-                         "ERROR" if evaluation["wrongly_cut"] else "CHECKMARK")
+                         "ERROR" if guilty(evaluation) else "CHECKMARK")
 
 
 def is_registered(operator: str) -> bool:

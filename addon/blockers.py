@@ -10,6 +10,8 @@ import numpy as np
 RAY_VISIBILITY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission",
                   "visible_volume_scatter", "visible_shadow")
 
+WRONG_SHARE = 0.01  # of a plane's links of light: how many may be cut wrongly before it is marked
+
 # Of object types that have a surface, and so an extent that a plane can be made to match.
 WITH_SURFACE = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 
@@ -88,6 +90,12 @@ def takes_part(thing, scene) -> bool:
 def of_scene(scene) -> list:
     """The blocking planes among the scene's objects."""
     return [thing for thing in scene.objects if is_blocker(thing)]
+
+
+def darkens(figures: dict) -> bool:
+    """Whether a plane, or all of them, takes away light that should be there, by an evaluation. Of
+    the links that a plane in a wall cuts, a few pass through the joints between surfaces."""
+    return figures["wrongly_cut"] > WRONG_SHARE * figures["radiance_cut"]
 
 
 def figures_of(name: str, per_plane: list[dict]) -> dict | None:

@@ -56,8 +56,7 @@ py::dict to_dict(const BlockerEvaluation& evaluation) {
 }
 
 py::dict evaluate(const Scene& scene, const py::dict& option_values, int rays, bool all_links,
-                  bool light,
-                  py::object progress_callback, py::object cancelled) {
+                  bool light, py::object progress_callback, py::object cancelled) {
     const Options options = to_options(option_values);
     BlockerEvaluation evaluation;
     const bool done = run_with_callbacks(
@@ -101,7 +100,8 @@ py::dict lit_sides(Scene scene) {
 
 void bind_blockers(py::module_& module) {
     module.def("evaluate_blockers", &evaluate, "scene"_a, "options"_a, py::kw_only(), "rays"_a = 64,
-               "all_links"_a = false, "light"_a = false, "progress"_a = py::none(), "cancelled"_a = py::none(),
+               "all_links"_a = false, "light"_a = false, "progress"_a = py::none(),
+               "cancelled"_a = py::none(),
                "What the scene's blocking planes cut of the links that IMPLICIT visibility makes "
                "without them, by `rays` rays a link that is cut (0: occlusion is not counted). A "
                "dict: cancelled; links; links_cut, radiance_cut; occluded_cut, "

@@ -149,7 +149,7 @@ def test_figures_of_the_list(cases):
     assert rendered == [["Good", *plain("1.2k"), *part], ["Bad", *plain("57k"), *part],
                         ["Muted", *plain(""), *no_part]]
     assert evaluated == [
-        ["Good", *plain("1.2k", "999", "0"), *part],
+        ["Good", *plain("1.2k", "999", "2"), *part],
         ["Bad", *plain("57k", "2.0k"), ["6", True], *wrong],
         ["Muted", *plain("", "", ""), *no_part]]
 
@@ -187,8 +187,8 @@ def test_words_for_an_evaluation(cases):
     case = cases["evaluated"]
     (totals, bad), (_, good), (_, idle) = case["texts"]
     assert f"{case['evaluation']['links_cut']:,} of {case['evaluation']['links']:,} links" in totals
-    assert bad.startswith("Wrongly cut links carry light") and bad.endswith("openings: Open")
-    assert good.startswith("Nothing is cut wrongly")
+    assert bad.startswith("No surface lies between") and bad.endswith("openings: Open")
+    assert good.startswith("The planes take no light away")
     assert idle.startswith("No link is cut")
 
 

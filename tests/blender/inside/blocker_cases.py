@@ -341,8 +341,8 @@ def shown_figures():
               {"name": "Bad (instanced by Row)", "links_cut": 1}, {"name": "Badly", "links_cut": 9}]
     render_log.remember(scene.name, render_log.Outcome(report={"blockers": {"per_plane": planes}}))
     note()
-    judged = [{**plane, "occluded_cut": 999, "wrongly_cut": 3 if "Bad" in plane["name"] else 0}
-              for plane in planes]
+    judged = [{**plane, "radiance_cut": 299, "occluded_cut": 999,
+               "wrongly_cut": 3 if "Bad" in plane["name"] else 2} for plane in planes]
     render_log.remember_evaluation(scene.name, {"per_plane": judged})
     note()
     render_log.clear()

@@ -272,7 +272,8 @@ def panels():
     scene = new_scene()
     plane = blocker("Plane")
     render_log, module = recorder.addon("render_log"), recorder.addon("blocker_panel")
-    figures = {"links": 9, "links_cut": 5, "occluded_cut": 4, "wrongly_cut": 1}
+    figures = {"links": 9, "links_cut": 5, "radiance_cut": 3, "occluded_cut": 4,
+               "wrongly_cut": 1}
     render_log.remember_evaluation(scene.name, {**figures, "per_plane": [
         {"name": "Plane", **figures}]})
     with windowed.in_view():

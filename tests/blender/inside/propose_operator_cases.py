@@ -83,7 +83,6 @@ def evaluation(name, settings, **how):
 
 def light():
     return {"corridor": evaluation("corridor", {"only_helpful": False}, rays=64, all_links=True),
-            "corridor, helpful": evaluation("corridor", {}, rays=0),
             "office": evaluation("office", {"only_helpful": False, "limit": 32}, rays=0),
             "office, helpful": evaluation("office", {}, rays=0)}
 
@@ -117,7 +116,7 @@ def settings():
     for name, values in {"limit": {"limit": 2}, "min_area": {"min_area": 1.5},
                          "thickness": {"thickness": 0.1}}.items():
         open_scene("two_rooms")
-        propose(**values)
+        propose(only_helpful=False, **values)
         result[name] = [described(plane) for plane in planes()]
     return result
 
