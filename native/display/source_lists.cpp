@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
+#include "base/error.h"
 #include "base/parallel.h"
 
 namespace antiradiance {
@@ -147,7 +149,7 @@ std::vector<NodeId> linked_nodes(const PatchTree& tree, const LinkSet& links,
     return topmost;
 }
 
-// The leaf that all fragments of a group lie on; kNone: none.
+// The leaf that all fragments of a group lie on.
 NodeId receiver_of(const GBuffer& buffer, const FragmentGroups& groups, std::size_t group) {
     return buffer.fragments[groups.order[groups.groups[group].begin]].leaf;
 }
@@ -171,6 +173,11 @@ SourceLists collect_lists(std::size_t group_count, Progress& progress,
         }
     });
     for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (lists.sources.size() + blocks[b].size() > std::numeric_limits<std::uint32_t>::max()) {
+            throw SceneError(
+                "Final shooting needs more than 4 billion pairs of patches: set Shooting Level to "
+                "Cut, or lower the resolution");
+        }
         const auto offset = static_cast<std::uint32_t>(lists.sources.size());
         for (std::size_t g = b * kBlock; g < std::min(group_count, (b + 1) * kBlock); ++g) {
             lists.begin[g] += offset;
@@ -221,13 +228,16 @@ SourceLists linked_sources(const PatchTree& tree, const LinkSet& links, const GB
 SourceLists uncut_sources(const PatchTree& tree, const BlockingPlanes& planes,
                           const GBuffer& buffer, const FragmentGroups& groups,
                           const SourceLists& lists, Progress& progress) {
+    std::vector<std::uint8_t> cut_in_two(tree.size());
+    for (std::size_t n = 0; n < tree.size(); ++n)
+        cut_in_two[n] =
+            tree.is_cluster(static_cast<NodeId>(n)) && planes.near(tree.center[n], tree.radius[n]);
     const auto select = [&](std::size_t g, std::vector<NodeId>& list) {
         const NodeId receiver = receiver_of(buffer, groups, g);
-        if (receiver == kNone) return;
         const vec3& to = tree.center[static_cast<std::size_t>(receiver)];
         const auto append = [&](const auto& self, NodeId source) -> void {
             const auto n = static_cast<std::size_t>(source);
-            if (tree.is_cluster(source) && planes.near(tree.center[n], tree.radius[n])) {
+            if (cut_in_two[n]) {
                 for (NodeId child = source + 1; child < tree.subtree_end[n];
                      child = tree.subtree_end[static_cast<std::size_t>(child)])
                     self(self, child);

@@ -49,10 +49,8 @@ vec3 area_vector(std::span<const vec3> loop) {
 
 class RegionMaker {
 public:
-    explicit RegionMaker(const Scene& scene)
-        : planar_(kPlanar * largest_extent(scene)),
-          vertices_(planar_),
-          shape_of_(scene.triangles.size(), kNone) {
+    RegionMaker(const Scene& scene, float extent)
+        : planar_(kPlanar * extent), vertices_(planar_), shape_of_(scene.triangles.size(), kNone) {
         for (const Polygon& polygon : make_polygons(scene))
             add(scene, polygon);
         for (int i = 0; i < kMostRounds; ++i) {
@@ -289,8 +287,9 @@ private:
 
 }  // namespace
 
-ConvexRegions find_convex_regions(const Scene& scene, std::span<const Surface> surfaces) {
-    return RegionMaker(scene).regions(surfaces);
+ConvexRegions find_convex_regions(const Scene& scene, std::span<const Surface> surfaces,
+                                  float extent) {
+    return RegionMaker(scene, extent).regions(surfaces);
 }
 
 }  // namespace antiradiance

@@ -49,6 +49,11 @@ struct ConvexRegions {
 // wall with a door stays cut so that none covers the door. Edges of one direction first, so that a
 // grid of any size becomes strips and then one rectangle. O(n log n).
 // Materials have no transparency: every surface but a lamp's is opaque.
-ConvexRegions find_convex_regions(const Scene& scene, std::span<const Surface> surfaces);
+// extent: m, of the scene whose patches are tested against the regions.
+ConvexRegions find_convex_regions(const Scene& scene, std::span<const Surface> surfaces,
+                                  float extent);
+inline ConvexRegions find_convex_regions(const Scene& scene, std::span<const Surface> surfaces) {
+    return find_convex_regions(scene, surfaces, largest_extent(scene));
+}
 
 }  // namespace antiradiance

@@ -2,6 +2,7 @@
 #include "links/blocking_planes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hierarchy/shaft.h"
 
@@ -23,13 +24,12 @@ BlockingPlanes::BlockingPlanes(std::span<const Blocker> blockers, float epsilon)
     std::vector<Surface> triangles(planes.triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
         triangles[t].triangles[0] = static_cast<TriangleId>(t);
-    regions_ = find_convex_regions(planes, triangles);
-    for (std::size_t r = 0; r < regions_.regions.size(); ++r) {
-        const auto corners = regions_.corners_of(static_cast<RegionId>(r));
-        Box box{corners[0], corners[0]};
-        for (const vec3& p : corners)
-            box = {glm::min(box.low, p), glm::max(box.high, p)};
-        boxes_.push_back(box);
+    regions_ = find_convex_regions(planes, triangles, RayScene::extent_of(epsilon));
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const auto [a, b, c] = planes.corners(static_cast<TriangleId>(t));
+        const vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+        triangles_.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), normal,
+                              glm::dot(normal, a)});
     }
     rays_.emplace(planes);
 }
@@ -67,9 +67,11 @@ BlockerId BlockingPlanes::separating(const Hull& a, const Hull& b) const {
 }
 
 bool BlockingPlanes::near(const vec3& point, float distance) const {
-    return std::ranges::any_of(boxes_, [&](const Box& box) {
-        const vec3 d = glm::max(glm::max(box.low - point, point - box.high), vec3(0));
-        return glm::dot(d, d) < distance * distance;
+    const float reach = distance + epsilon_;
+    return std::ranges::any_of(triangles_, [&](const Triangle& t) {
+        if (std::abs(glm::dot(t.normal, point) - t.offset) > reach) return false;
+        const vec3 d = glm::max(glm::max(t.low - point, point - t.high), vec3(0));
+        return glm::dot(d, d) <= reach * reach;
     });
 }
 

@@ -32,7 +32,6 @@ struct BlockResult {
     RefinedLinks made;
     std::vector<Waiting> waiting;
     std::vector<Pair> stack;
-    std::vector<Pair> cut_stack;  // below a pair that a plane parts
 };
 
 // The corners of a patch, or of a box around a cluster.
@@ -100,6 +99,18 @@ public:
         }
     }
 
+    // Of a pair's links, if none of its leaves is split any more: those of the pair itself, or the
+    // pairs below it.
+    LinkCount count_links(const Pair& p, std::vector<Pair>& below) const {
+        const Verdict v = oracle_.decide(p.a, p.b);
+        if (v.action == Verdict::kDrop) return {};
+        const NodeId split = v.action == Verdict::kSplitB ? p.b : p.a;
+        if (v.action == Verdict::kLink || tree_.node(split).is_leaf())
+            return maker_.count(p.a, p.b, v);
+        push_children(split, p, below);
+        return {};
+    }
+
 private:
     void push_self_pairs(NodeId n, BlockResult& out) const {
         const GrowingNode& node = tree_.node(n);
@@ -134,27 +145,8 @@ private:
         const BlockerId plane =
             planes_->separating(NodeHull(tree_.node(p.a)).hull(), NodeHull(tree_.node(p.b)).hull());
         if (plane == kNone) return false;
-        out.made.separated.push_back({p.a, p.b, plane, count_links(p, out.cut_stack)});
+        out.made.separated.push_back({p.a, p.b, plane, {}});
         return true;
-    }
-
-    // Of a pair, if none of its leaves is split any more.
-    LinkCount count_links(const Pair& pair, std::vector<Pair>& stack) const {
-        LinkCount sum;
-        stack.push_back(pair);
-        while (!stack.empty()) {
-            const Pair p = stack.back();
-            stack.pop_back();
-            const Verdict v = oracle_.decide(p.a, p.b);
-            if (v.action == Verdict::kDrop) continue;
-            const NodeId split = v.action == Verdict::kSplitB ? p.b : p.a;
-            if (v.action != Verdict::kLink && !tree_.node(split).is_leaf()) {
-                push_children(split, p, stack);
-                continue;
-            }
-            sum += maker_.count(p.a, p.b, v);
-        }
-        return sum;
     }
 
     const GrowingTree& tree_;
@@ -184,6 +176,44 @@ void append(RefinedLinks& all, const RefinedLinks& block) {
         all.pairs.push_back(p);
     }
     all.separated.insert(all.separated.end(), block.separated.begin(), block.separated.end());
+}
+
+// One pair may stand for half of all links, so those below the pairs are shared out.
+void count_separated(const Refiner& refiner, std::vector<SeparatedPair>& separated,
+                     Progress& progress) {
+    struct Part {
+        std::size_t of;  // separated pair
+        Pair pair;
+    };
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < separated.size(); ++i)
+        parts.push_back({i, {separated[i].a, separated[i].b}});
+    std::vector<Pair> below;
+    while (!parts.empty() && parts.size() < kEnoughPairs) {
+        std::vector<Part> finer;
+        for (const Part& part : parts) {
+            separated[part.of].links += refiner.count_links(part.pair, below);
+            for (const Pair& pair : below)
+                finer.push_back({part.of, pair});
+            below.clear();
+        }
+        parts.swap(finer);
+    }
+    std::vector<LinkCount> counts(parts.size());
+    parallel_for_blocks(parts.size(), 16, progress, [&](std::size_t begin, std::size_t end) {
+        std::vector<Pair> stack;
+        for (std::size_t i = begin; i < end; ++i) {
+            stack.push_back(parts[i].pair);
+            for (std::size_t steps = 0; !stack.empty(); ++steps) {
+                if (steps % kBlock == 0) progress.check();
+                const Pair pair = stack.back();
+                stack.pop_back();
+                counts[i] += refiner.count_links(pair, stack);
+            }
+        }
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        separated[parts[i].of].links += counts[i];
 }
 
 }  // namespace
@@ -241,7 +271,10 @@ RefinedLinks refine_links(GrowingTree& tree, const DirectionBins& bins,
             append(all, block.made);
             block = {};
         }
-        if (waiting.empty()) return all;
+        if (waiting.empty()) {
+            count_separated(refiner, all.separated, progress);
+            return all;
+        }
 
         // The leaves that pairs wait for, once each; then those pairs go on.
         pairs.clear();

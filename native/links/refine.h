@@ -61,7 +61,7 @@ struct LinkCount {
 };
 
 // Two nodes all of whose links a plane would cut, and how many those are at least: between nodes
-// as fine as they were when the pair was dropped.
+// as fine as other pairs have made them.
 struct SeparatedPair {
     NodeId a, b;
     BlockerId plane;

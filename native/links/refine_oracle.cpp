@@ -15,15 +15,22 @@ constexpr float kMostNegligible = 8;       // eps, of a form factor whose exchan
 
 RefineOracle::RefineOracle(const GrowingTree& tree, const DirectionBins& bins,
                            const RefineOptions& options)
-    : tree_(tree), options_(options), widest_(options.bin_share * bins.mean_solid_angle()) {}
+    : tree_(tree), options_(options), widest_(options.bin_share * bins.mean_solid_angle()) {
+    if (!options.cluster_links || options.planes == nullptr || options.planes->empty()) return;
+    cut_in_two_.resize(tree.size());
+    for (std::size_t n = 0; n < tree.size(); ++n) {
+        const GrowingNode& node = tree.node(static_cast<NodeId>(n));
+        cut_in_two_[n] = node.is_cluster() && options.planes->near(node.center, node.radius);
+    }
+}
 
 // What is declared inline here is called in one place, for each of millions of pairs.
 
 Verdict RefineOracle::decide(NodeId a, NodeId b) const {
     const GrowingNode& first = tree_.node(a);
     const GrowingNode& second = tree_.node(b);
-    return first.is_cluster() || second.is_cluster() ? decide_clusters(first, second)
-                                                     : decide_patches(first, second);
+    if (!first.is_cluster() && !second.is_cluster()) return decide_patches(first, second);
+    return decide_clusters(first, second, !may_be_cut_in_two(a) && !may_be_cut_in_two(b));
 }
 
 inline Verdict RefineOracle::decide_patches(const GrowingNode& a, const GrowingNode& b) const {
@@ -108,15 +115,16 @@ bool RefineOracle::both_negligible(const GrowingNode& a, const GrowingNode& b) c
     return !options_.antiradiance && a.area < most && b.area < most;
 }
 
-inline Verdict RefineOracle::decide_clusters(const GrowingNode& a, const GrowingNode& b) const {
+inline Verdict RefineOracle::decide_clusters(const GrowingNode& a, const GrowingNode& b,
+                                             bool whole) const {
     Verdict v;
     const bool a_receives = may_receive(a, b);
     const bool b_receives = may_receive(b, a);
     const bool lit = options_.antiradiance ? a_receives || b_receives : a_receives && b_receives;
     if (!lit || (a.emits_only && b.emits_only)) return v;
 
-    if (options_.cluster_links && !a.emits_only && !b.emits_only && clusters_are_far(a, b) &&
-        !may_be_cut_in_two(a) && !may_be_cut_in_two(b)) {
+    if (options_.cluster_links && whole && !a.emits_only && !b.emits_only &&
+        clusters_are_far(a, b)) {
         v.action = Verdict::kLink;
         v.to_a.plus = v.to_b.plus = true;
         return v;
@@ -130,10 +138,10 @@ inline Verdict RefineOracle::decide_clusters(const GrowingNode& a, const Growing
     return v;
 }
 
-// A cluster that lies on both sides of a plane: its centre says little of which links cross it.
-bool RefineOracle::may_be_cut_in_two(const GrowingNode& n) const {
-    return n.is_cluster() && options_.planes != nullptr &&
-           options_.planes->near(n.center, n.radius);
+// Of such a cluster the centre says little of which links cross the plane.
+bool RefineOracle::may_be_cut_in_two(NodeId n) const {
+    const auto i = static_cast<std::size_t>(n);
+    return i < cut_in_two_.size() && cut_in_two_[i] != 0;
 }
 
 bool RefineOracle::clusters_are_far(const GrowingNode& a, const GrowingNode& b) const {

@@ -36,7 +36,9 @@ public:
 
 private:
     [[nodiscard]] Verdict decide_patches(const GrowingNode& a, const GrowingNode& b) const;
-    [[nodiscard]] Verdict decide_clusters(const GrowingNode& a, const GrowingNode& b) const;
+    // whole: neither is a cluster that a plane may cut in two.
+    [[nodiscard]] Verdict decide_clusters(const GrowingNode& a, const GrowingNode& b,
+                                          bool whole) const;
     [[nodiscard]] LinkSigns signs(const GrowingNode& source, const GrowingNode& receiver,
                                   PlaneSide source_at, PlaneSide receiver_at) const;
     [[nodiscard]] bool can_split(const GrowingNode& n) const;
@@ -44,7 +46,7 @@ private:
     [[nodiscard]] bool small_enough(const GrowingNode& a, const GrowingNode& b, const vec3& d,
                                     float d2, bool straddles) const;
     [[nodiscard]] bool clusters_are_far(const GrowingNode& a, const GrowingNode& b) const;
-    [[nodiscard]] bool may_be_cut_in_two(const GrowingNode& n) const;
+    [[nodiscard]] bool may_be_cut_in_two(NodeId n) const;
     [[nodiscard]] bool emits(const GrowingNode& patch) const;
     [[nodiscard]] bool negligible(float exchange, float smaller_area, float eps) const;
     [[nodiscard]] bool both_negligible(const GrowingNode& a, const GrowingNode& b) const;
@@ -53,6 +55,8 @@ private:
     const GrowingTree& tree_;
     const RefineOptions& options_;
     float widest_;  // sr
+    // #nodes at first, all clusters among them: those that lie on both sides of a plane.
+    std::vector<std::uint8_t> cut_in_two_;
 };
 
 }  // namespace antiradiance

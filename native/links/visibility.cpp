@@ -158,6 +158,14 @@ std::vector<float> trace_pairs(const PatchTree& tree, const RayScene& scene,
     return shares;
 }
 
+bool centers_see(const PatchTree& tree, const RayScene& scene, NodeId a, NodeId b) {
+    const auto lifted = [&](NodeId n) {
+        const auto i = static_cast<std::size_t>(n);
+        return tree.center[i] + tree.normal[i] * (2 * scene.epsilon());
+    };
+    return !scene.occluded(lifted(a), lifted(b));
+}
+
 std::size_t apply_ray_visibility(const PatchTree& tree, const RayScene& scene,
                                  const VisibilityRays& rays, std::span<const LinkedPair> pairs,
                                  std::span<RawLink> links, Progress& progress) {

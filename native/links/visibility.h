@@ -66,6 +66,9 @@ std::size_t count_rays(const PatchTree& tree, const VisibilityRays& rays,
 [[nodiscard]] std::vector<float> trace_pairs(const PatchTree& tree, const RayScene& scene,
                                              std::span<const TestedPair> pairs, Progress& progress);
 
+// Whether nothing lies between the centres of two patches, each lifted off its surface.
+[[nodiscard]] bool centers_see(const PatchTree& tree, const RayScene& scene, NodeId a, NodeId b);
+
 // Multiplies the form factors of the pairs' + links by the pair's visibility; an occluded link gets
 // 0. Pairs name nodes of `tree`. Returns the number of rays.
 std::size_t apply_ray_visibility(const PatchTree& tree, const RayScene& scene,

@@ -16,8 +16,8 @@ namespace antiradiance {
 
 struct BlockerCuts {
     std::vector<LinkCount> per_plane;   // #Scene::blockers: links for which it is the first plane
-    double seconds = 0;                 // for links cut one by one; pairs that a plane parts are
-                                        // dropped as the links are made
+    double seconds = 0;                 // for links cut one by one, and the warnings; pairs that a
+                                        // plane parts are dropped as the links are made
     std::vector<std::string> warnings;  // of planes that cut links with nothing else in their way
 };
 

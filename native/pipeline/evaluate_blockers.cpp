@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "links/cut_links.h"
 #include "pipeline/helpful_blockers.h"
@@ -19,15 +20,6 @@ namespace {
 // Counts a link by its sign.
 void count(const Link& link, LinkCount& sum) {
     ++(link.form_factor > 0 ? sum.radiance : sum.antiradiance);
-}
-
-// Whether the ends of a link see each other, centre from centre.
-bool centers_see(const Model& model, NodeId source, NodeId receiver) {
-    const auto lifted = [&](NodeId n) {
-        const auto i = static_cast<std::size_t>(n);
-        return model.tree.center[i] + model.tree.normal[i] * (2 * model.rays.epsilon());
-    };
-    return !model.rays.occluded(lifted(source), lifted(receiver));
 }
 
 std::vector<std::uint8_t> where(std::span<const BlockerId> cut, bool is_cut) {
@@ -68,13 +60,20 @@ void test_with_rays(const Scene& scene, const Model& model, std::span<const Bloc
     const auto plane = [&](std::size_t l) -> BlockerEvaluation::Plane& {
         return evaluation.per_plane[static_cast<std::size_t>(cut[l])];
     };
-    for (const Segment& segment : model.links.segments) {
-        for (std::uint32_t l = segment.begin; l < segment.end; ++l) {
-            const Link& link = model.links.links[l];
-            if (cut[l] != kNone && link.form_factor > 0 &&
-                centers_see(model, link.source, segment.receiver))
-                ++plane(l).wrongly_cut;
-        }
+    std::vector<std::uint8_t> free(cut.size(), 0);  // no surface between the centres
+    parallel_for_blocks(
+        model.links.segments.size(), 1024, progress, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Segment& row = model.links.segments[i];
+                for (std::uint32_t l = row.begin; l < row.end; ++l) {
+                    const Link& link = model.links.links[l];
+                    if (cut[l] != kNone && link.form_factor > 0)
+                        free[l] = centers_see(model.tree, model.rays, link.source, row.receiver);
+                }
+            }
+        });
+    for (std::size_t l = 0; l < free.size(); ++l) {
+        if (free[l]) ++plane(l).wrongly_cut;
     }
     const std::vector<std::uint8_t> occluded = find_occluded(scene, model, cut, how, progress);
     LinkCount all;

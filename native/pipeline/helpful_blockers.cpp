@@ -2,6 +2,7 @@
 #include "pipeline/helpful_blockers.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "hierarchy/push_pull.h"
@@ -58,7 +59,7 @@ public:
     }
 
     // #planes
-    [[nodiscard]] std::vector<std::uint8_t> choose() {
+    [[nodiscard]] std::vector<std::uint8_t> choose(Progress& progress) {
         std::vector<std::size_t> order(crossing_.size());
         std::iota(order.begin(), order.end(), 0U);
         std::ranges::stable_sort(order, std::greater{},
@@ -67,6 +68,7 @@ public:
         for (int round = 0; round < kMostRounds; ++round) {
             const std::vector<std::uint8_t> before = helps;
             for (const std::size_t plane : order) {
+                progress.check();
                 if (!helps[plane] && take(plane)) helps[plane] = 1;
             }
             if (helps == before) break;
@@ -115,7 +117,7 @@ std::vector<std::uint8_t> find_helpful_blockers(const PatchTree& tree, const Lin
                                                 std::span<const vec3> error, Progress& progress) {
     Choice choice(tree, error);
     choice.add_links(links, planes, plane_count, cut, radiance, progress);
-    return choice.choose();
+    return choice.choose(progress);
 }
 
 }  // namespace antiradiance

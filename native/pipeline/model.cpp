@@ -141,6 +141,8 @@ std::string object_of_most(const Scene& scene, const std::vector<Surface>& surfa
 std::string check_implicit_links(const Scene& scene, const GrowingTree& tree,
                                  const Options& options, const RefineOptions& refine) {
     if (options.visibility == Visibility::kExplicit) return {};
+    // They may cut most of them; whether the rest fits into memory shows as links are made.
+    if (!refine.planes->empty()) return {};
     const double links = estimate_links_without_clusters(tree);
     if (links < kManyLinks) return {};
     char millions[32];

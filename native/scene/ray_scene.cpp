@@ -99,7 +99,7 @@ struct RayScene::Impl {
 };
 
 RayScene::RayScene(const Scene& scene)
-    : impl_(std::make_unique<Impl>()), epsilon_(1e-5F * largest_extent(scene)) {
+    : impl_(std::make_unique<Impl>()), epsilon_(kEpsilonShare * largest_extent(scene)) {
     impl_->device.reset(rtcNewDevice(nullptr));
     if (!impl_->device) throw_on_error(nullptr);
     const RTCDevice device = impl_->device.get();

@@ -51,10 +51,13 @@ public:
     // m, the length below which two points count as one: 1e-5 of the scene's largest extent, and no
     // less than float can tell apart where the scene lies.
     [[nodiscard]] float epsilon() const { return epsilon_; }
+    // m, of the scene with that epsilon.
+    [[nodiscard]] static float extent_of(float epsilon) { return epsilon / kEpsilonShare; }
 
     static constexpr float kInfinity = 1e30F;
 
 private:
+    static constexpr float kEpsilonShare = 1e-5F;
     struct Impl;
     std::unique_ptr<Impl> impl_;
     float epsilon_ = 0;

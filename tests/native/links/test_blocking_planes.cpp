@@ -114,6 +114,27 @@ TEST(BlockingPlanes, PartsWhatLiesInTheShadowOfItsOutline) {
     EXPECT_FALSE(planes.near({0.5F, 0, 0}, 0.4F));
 }
 
+TEST(BlockingPlanes, NearIsByThePlaneNotItsBox) {
+    Scene scene;  // across the corner of a room, at 45 degrees
+    test::add_plane(scene, "Oblique", {0, 4, 0}, {4, -4, 0}, {0, 0, 3});
+    const BlockingPlanes planes = planes_of(scene);
+    EXPECT_FALSE(planes.near({0.5F, 0.5F, 1}, 2)) << "inside of its box, 2.1 m away";
+    EXPECT_TRUE(planes.near({0.5F, 0.5F, 1}, 2.2F));
+    EXPECT_FALSE(planes.near({2, 2, 5}, 1.9F)) << "above it";
+}
+
+// One plane of a kilometre must not make the others coarse.
+TEST(BlockingPlanes, AFarPlaneClosesNoSlot) {
+    Scene scene;
+    test::add_plane(scene, "Left", {0, -1, -1}, {0, 0.995F, 0}, {0, 0, 2});
+    test::add_plane(scene, "Right", {0, 0.005F, -1}, {0, 0.995F, 0}, {0, 0, 2});
+    test::add_plane(scene, "Far", {5e3F, 0, 0}, {0, 1e3F, 0}, {0, 0, 1e3F});
+    const BlockingPlanes planes = planes_of(scene);
+    EXPECT_EQ(planes.crossed({-1, 0, 0}, {1, 0, 0}), kNone);
+    EXPECT_EQ(planes.crossed({-1, 0.01F, 0}, {1, 0.01F, 0}), 1);
+    EXPECT_EQ(separating(planes, square(-1, 0.1F), square(1, 0.2F)), kNone) << "past the slot";
+}
+
 TEST(BlockingPlanes, AFoldedMeshPartsOnlyWithOneOfItsPlanes) {
     Scene scene;  // a roof: two squares that meet at z = 0, in one object
     test::add_plane(scene, "Roof", {0, -1, -1}, {0, 2, 0}, {0.5F, 0, 1});
