@@ -22,12 +22,12 @@ class ANTIRADIANCE_OT_evaluate_blocking_planes(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        scene, manager = core.native.Scene(), context.window_manager
+        manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
-            SceneWriter(scene, scene.add_warning).write(context.evaluated_depsgraph_get())
             evaluation = core.native.evaluate_blockers(
-                scene, option_values(context.scene.antiradiance),
+                read_scene(context.evaluated_depsgraph_get()),
+                option_values(context.scene.antiradiance),
                 progress=lambda fraction, _stage: manager.progress_update(100 * fraction))
         except core.native.SceneError as failure:
             self.report({"ERROR"}, str(failure))
@@ -37,6 +37,13 @@ class ANTIRADIANCE_OT_evaluate_blocking_planes(bpy.types.Operator):
         render_log.remember_evaluation(context.scene.name, evaluation)
         self.report({"WARNING" if guilty(evaluation) else "INFO"}, totals(evaluation))
         return {"FINISHED"}
+
+
+def read_scene(depsgraph):
+    """The core's scene, blocking planes included."""
+    scene = core.native.Scene()
+    SceneWriter(scene, scene.add_warning).write(depsgraph)
+    return scene
 
 
 def totals(evaluation: dict) -> str:

@@ -6,9 +6,10 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 
 from . import blockers, core, wall_planes
+from .blocker_evaluation import read_scene
 from .blocker_operators import NAME
 from .properties import option_values
-from .sync import SceneWriter, read_mesh
+from .sync import read_mesh
 from .ui import ENGINE
 
 COLLECTION = "Blocking Planes"
@@ -134,12 +135,6 @@ def best_of(planes, limit, count):
         planes = [planes[i] for i in kept]
         if len(kept) == len(useful):
             return planes, links_cut.sum() / links
-
-
-def read_scene(depsgraph):
-    scene = core.native.Scene()
-    SceneWriter(scene, scene.add_warning).write(depsgraph)
-    return scene
 
 
 def evaluate(scene, planes, options, **how):

@@ -9,6 +9,7 @@
 #include "links/cut_links.h"
 #include "pipeline/helpful_blockers.h"
 #include "pipeline/model.h"
+#include "prune/evaluate.h"
 #include "prune/prune.h"
 #include "prune/ray_visibility.h"
 #include "scene/validate.h"
@@ -35,21 +36,15 @@ std::vector<std::uint8_t> find_occluded(const Scene& scene, const Model& model,
                                         std::span<const BlockerId> cut,
                                         const BlockerEvaluationOptions& how, Progress& progress) {
     const auto trace = [&](const LinkSet& links) {
-        return trace_visibility(scene, model.tree, links, model.rays, {.rays_per_link = how.rays},
-                                progress);
+        return invisible_links(trace_visibility(scene, model.tree, links, model.rays,
+                                                {.rays_per_link = how.rays}, progress));
     };
-    const auto is_occluded = [](LinkVisibility v) {
-        return static_cast<std::uint8_t>(v == LinkVisibility::kNone);
-    };
-    std::vector<std::uint8_t> occluded(cut.size(), 0);
-    if (how.all_links) {
-        std::ranges::transform(trace(model.links), occluded.begin(), is_occluded);
-        return occluded;
-    }
-    const std::vector<LinkVisibility> of_cut = trace(remove_links(model.links, where(cut, false)));
+    if (how.all_links) return trace(model.links);
+    const RemovedLinks of_cut = trace(remove_links(model.links, where(cut, false)));
+    RemovedLinks occluded(cut.size(), 0);
     auto next = of_cut.begin();
     for (std::size_t l = 0; l < cut.size(); ++l) {
-        if (cut[l] != kNone) occluded[l] = is_occluded(*next++);
+        if (cut[l] != kNone) occluded[l] = *next++;
     }
     return occluded;
 }
