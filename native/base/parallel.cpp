@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -23,18 +24,15 @@ constexpr auto kPollInterval = std::chrono::milliseconds(20);
 
 // TBB orders its tasks inside a library that the thread sanitizer cannot see into, so each loop
 // would be reported as a race. Plain threads show it the same bodies.
-void run_on_all_cores(std::size_t count, const std::function<void(std::size_t)>& body) {
-    std::atomic<std::size_t> next{0};
+void run_on_all_cores(const std::function<void()>& work) {
     std::mutex mutex;
     std::exception_ptr error;
     std::vector<std::jthread> threads;
     for (unsigned t = 0; t < std::max(2U, std::thread::hardware_concurrency()); ++t) {
         threads.emplace_back([&] {
             try {
-                for (std::size_t i = next++; i < count; i = next++)
-                    body(i);
+                work();
             } catch (...) {
-                next = count;
                 const std::scoped_lock lock(mutex);
                 if (!error) error = std::current_exception();
             }
@@ -46,11 +44,36 @@ void run_on_all_cores(std::size_t count, const std::function<void(std::size_t)>&
 
 #else
 
-void run_on_all_cores(std::size_t count, const std::function<void(std::size_t)>& body) {
-    tbb::parallel_for(std::size_t{0}, count, body, tbb::auto_partitioner{});
+void run_on_all_cores(const std::function<void()>& work) {
+    tbb::parallel_for(
+        0, tbb::this_task_arena::max_concurrency(), [&](int) { work(); },
+        tbb::simple_partitioner{});
 }
 
 #endif
+
+// Bodies take the next index each, so that a pause or an error leaves none out and begins none.
+void loop_on_all_cores(std::size_t count, const Progress& progress,
+                       const std::function<void(std::size_t)>& body) {
+    std::atomic<std::size_t> next{0};
+    const auto drain = [&] {
+        try {
+            while (!progress.paused()) {
+                const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+                if (i >= count) return;
+                progress.check();
+                body(i);
+            }
+        } catch (...) {
+            next = count;
+            throw;
+        }
+    };
+    while (next < count) {
+        progress.wait_while_paused();
+        run_on_all_cores(drain);
+    }
+}
 
 }  // namespace
 
@@ -71,8 +94,7 @@ void parallel_for(std::size_t count, Progress& progress,
 
     std::thread loop([&] {
         try {
-            run_on_all_cores(count, [&](std::size_t i) {
-                progress.check();
+            loop_on_all_cores(count, progress, [&](std::size_t i) {
                 body(i);
                 done.fetch_add(1, std::memory_order_relaxed);
             });

@@ -18,7 +18,8 @@ struct ProgressSpan {
 // Calls body(i) for every i in [0, count) on all cores. The calling thread does not work: it polls
 // the caller every few milliseconds, because Blender's callbacks must come from the thread that
 // called us; so a stage stops as soon as its running bodies end. Keep a body under about 50 ms.
-// An exception of a body or of a callback ends the loop and is thrown here.
+// An exception of a body or of a callback ends the loop and is thrown here. While the progress is
+// paused, bodies that run end and no other begins.
 void parallel_for(std::size_t count, Progress& progress,
                   const std::function<void(std::size_t)>& body, ProgressSpan span = {});
 

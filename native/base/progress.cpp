@@ -2,10 +2,17 @@
 #include "base/progress.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/error.h"
 
 namespace antiradiance {
+
+namespace {
+
+constexpr std::chrono::milliseconds kPollInterval{20};
+
+}  // namespace
 
 void Progress::begin_stage(std::string stage, float begin, float end) {
     stage_ = std::move(stage);
@@ -14,10 +21,26 @@ void Progress::begin_stage(std::string stage, float begin, float end) {
     report(0);
 }
 
-void Progress::report(float fraction) {
+void Progress::poll() {
     if (is_cancelled_ && is_cancelled_()) cancel();
     check();
+}
+
+void Progress::report(float fraction) {
+    poll();
+    while (paused()) {
+        gate_->wait(kPollInterval);
+        poll();
+    }
     if (report_) report_(begin_ + (end_ - begin_) * std::clamp(fraction, 0.0F, 1.0F), stage_);
+}
+
+void Progress::wait_while_paused() const {
+    check();
+    while (paused()) {
+        gate_->wait(kPollInterval);
+        check();
+    }
 }
 
 void Progress::check() const {

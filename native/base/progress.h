@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "base/pause_gate.h"
+
 namespace antiradiance {
 
 // How a long stage talks to its caller. Stages call `check()` at least every 0.1 s of work on every
@@ -16,15 +18,17 @@ public:
     using IsCancelled = std::function<bool()>;
 
     Progress() = default;
-    Progress(Report report, IsCancelled is_cancelled)
-        : report_(std::move(report)), is_cancelled_(std::move(is_cancelled)) {}
+    // gate: what can make the work wait, or null; must outlive this.
+    Progress(Report report, IsCancelled is_cancelled, const PauseGate* gate = nullptr)
+        : report_(std::move(report)), is_cancelled_(std::move(is_cancelled)), gate_(gate) {}
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     // The following reports fill [begin, end] of the whole bar under the name `stage`.
     void begin_stage(std::string stage, float begin, float end);
 
-    // fraction: of the current stage, 0..1. Also polls the caller for cancellation.
+    // fraction: of the current stage, 0..1. Also polls the caller for cancellation, and waits while
+    // the work is paused.
     void report(float fraction);
 
     // From any thread; cheap (one atomic load).
@@ -33,9 +37,17 @@ public:
     // From any thread: make every following check() throw.
     void cancel() { cancel_.store(true, std::memory_order_relaxed); }
 
+    // Whether a loop should give the cores back and go on after wait_while_paused().
+    [[nodiscard]] bool paused() const { return gate_ != nullptr && gate_->held(); }
+    // From any thread; throws Cancelled.
+    void wait_while_paused() const;
+
 private:
+    void poll();
+
     Report report_;
     IsCancelled is_cancelled_;
+    const PauseGate* gate_ = nullptr;
     std::string stage_;
     float begin_ = 0;
     float end_ = 1;

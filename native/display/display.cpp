@@ -47,7 +47,7 @@ vec3 eye_of(const Camera& camera) {
 std::vector<vec3> splatted_irradiance(const DisplayInput& input, const DisplayOptions&,
                                       const GBuffer& buffer, DisplayBackend& backend,
                                       Progress& progress) {
-    const FragmentGroups tiles = tile_groups(buffer, eye_of(input.scene.camera), kTileSize);
+    const FragmentGroups tiles = tile_groups(buffer, eye_of(input.camera), kTileSize);
     const SourceLists disks = find_disks(input.tree, tiles, progress);
     return backend.splat({input.tree, input.irradiance, buffer, tiles, disks}, progress,
                          kIndirectSpan);
@@ -111,10 +111,10 @@ std::vector<vec3> shoot_interleaved(const DisplayInput& input, const GBuffer& bu
 
 std::vector<vec3> shoot_at(const DisplayInput& input, const DisplayOptions& options,
                            const GBuffer& buffer, DisplayBackend& backend, Progress& progress) {
-    const FragmentGroups groups = lit_by_leaf(input)
-                                      ? receiver_groups(buffer)
-                                      : tile_groups(buffer, eye_of(input.scene.camera),
-                                                    std::max(kTileSize, options.interleave));
+    const FragmentGroups groups =
+        lit_by_leaf(input)
+            ? receiver_groups(buffer)
+            : tile_groups(buffer, eye_of(input.camera), std::max(kTileSize, options.interleave));
     const SourceLists all = find_sources(input, options, buffer, groups, progress);
     const PatchLights lights(input.tree, input.radiance, options.shooting_samples);
     const std::vector<vec3> leaf_light = total_irradiance(input);
@@ -187,21 +187,17 @@ const Mode& find_mode(DisplayMode mode) {
     throw std::logic_error("a display mode without a row in kModes");
 }
 
-}  // namespace
-
-bool uses_backend(const DisplayOptions& options) {
-    return find_mode(options.mode).uses_backend(options);
-}
-
-Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
-                     DisplayBackend& backend, Progress& progress) {
+// direct: what lights the pixels beside the mode's light; null: nothing.
+Picture compose(const DisplayInput& input, const DirectLight* direct, const DisplayOptions& options,
+                DisplayBackend& backend, Progress& progress) {
     const Mode& mode = find_mode(options.mode);
     // Links are cut for each leaf by itself.
     const bool by_leaf = mode.by_leaf || lit_by_leaf(input);
-    GBuffer buffer = make_gbuffer(
-        {input.scene, input.rays, input.tree, input.direct, input.leaf_direct, input.irradiance,
-         by_leaf, input.film_transparent, input.samples_per_axis, options.direct_samples},
-        progress, {0, kGBufferShare});
+    GBuffer buffer =
+        make_gbuffer({input.scene, input.camera, input.rays, input.tree, direct, input.leaf_direct,
+                      input.irradiance, by_leaf, input.film_transparent, input.samples_per_axis,
+                      options.direct_samples},
+                     progress, {0, kGBufferShare});
     std::vector<vec3> indirect(buffer.fragments.size(), vec3(0));
     if (input.tree.size() > 0) indirect = mode.indirect(input, options, buffer, backend, progress);
     Picture picture;
@@ -217,6 +213,23 @@ Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
     }
     progress.report(1);
     return picture;
+}
+
+}  // namespace
+
+bool uses_backend(const DisplayOptions& options) {
+    return find_mode(options.mode).uses_backend(options);
+}
+
+Picture make_picture(const DisplayInput& input, const DisplayOptions& options,
+                     DisplayBackend& backend, Progress& progress) {
+    if (input.direct_of_leaves) {
+        const std::vector<vec3> all_light = total_irradiance(input);
+        DisplayInput indirect = input;
+        indirect.irradiance = all_light;
+        return compose(indirect, nullptr, options, backend, progress);
+    }
+    return compose(input, &input.direct, options, backend, progress);
 }
 
 }  // namespace antiradiance

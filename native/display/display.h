@@ -26,7 +26,8 @@ struct Picture {
 };
 
 struct DisplayInput {
-    const Scene& scene;  // has a camera
+    const Scene& scene;  // its own camera is not read
+    const Camera& camera;
     const RayScene& rays;
     const BlockingPlanes& planes;  // no patch lights a fragment through them
     const PatchTree& tree;
@@ -38,6 +39,9 @@ struct DisplayInput {
     std::span<const vec3> radiance;     // #nodes, W/(m2 sr), L of Eq. 3
     bool film_transparent = false;      // no background, alpha 0 where nothing is seen
     int samples_per_axis = 4;           // anti-aliasing, n x n a pixel
+    // Pixels have the direct light of leaves, by the same mode, and trace no shadow rays: quick,
+    // and shadows are as coarse as the leaves. Not for kFinalShooting.
+    bool direct_of_leaves = false;
 };
 
 // Whether there is work for a back end: flat patches have none, and shadow rays stay on the CPU.

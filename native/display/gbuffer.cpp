@@ -19,6 +19,10 @@ constexpr std::size_t kBlock = 32;  // pixels; some ms
 constexpr std::size_t kBand = 1U << 16U;
 constexpr std::size_t kMapPoints = 4;  // of a fragment that shadow maps light
 
+bool has_maps(const GBufferInput& input) {
+    return input.direct && input.direct->has_maps();
+}
+
 // A fragment while its pixel's samples come in.
 struct OpenFragment {
     std::int64_t key = 0;  // the leaf or surface, or the triangle side where there is none
@@ -48,8 +52,8 @@ public:
     PixelSampler(const GBufferInput& input, GBuffer& target)
         : in_(input),
           out_(target),
-          camera_(input.scene.camera),
-          rays_(input.scene.camera),
+          camera_(input.camera),
+          rays_(input.camera),
           lamps_(input.scene.lamps),
           samples_(input.samples_per_axis * input.samples_per_axis) {}
 
@@ -78,7 +82,7 @@ public:
         vec3 normal(0);
         for (std::size_t i = 0; i < open_count_; ++i) {
             const Fragment& f = sampled.fragments.emplace_back(close(open_[i]));
-            if (in_.direct.has_maps()) add_points(open_[i], f, sampled);
+            if (has_maps(in_)) add_points(open_[i], f, sampled);
             normal += f.shading_normal * f.coverage;
         }
         const float length = glm::length(normal);
@@ -176,8 +180,8 @@ private:
     [[nodiscard]] vec3 direct_irradiance(const OpenFragment& open) const {
         const auto points =
             spread_choice(open.points, static_cast<std::size_t>(in_.direct_samples));
-        return in_.direct.irradiance(points, sampling_of(open),
-                                     hash_u32(static_cast<std::uint32_t>(pixel_)));
+        return in_.direct->irradiance(points, sampling_of(open),
+                                      hash_u32(static_cast<std::uint32_t>(pixel_)));
     }
 
     [[nodiscard]] Fragment close(const OpenFragment& open) const {
@@ -195,7 +199,7 @@ private:
         f.shading_normal = length > 0 ? f.shading_normal / length : f.normal;
         f.albedo = open.albedo / count;
         f.light = open.emission / count;
-        if (max_component(f.albedo) > 0 && !in_.direct.has_maps())
+        if (max_component(f.albedo) > 0 && in_.direct && !has_maps(in_))
             f.light += f.albedo * kInvPi * direct_irradiance(open);
         return f;
     }
@@ -263,7 +267,7 @@ std::vector<std::uint32_t> pixel_starts(const GBuffer& buffer) {
 }
 
 GBuffer make_gbuffer(const GBufferInput& input, Progress& progress, ProgressSpan span) {
-    const Camera& camera = input.scene.camera;
+    const Camera& camera = input.camera;
     GBuffer buffer;
     buffer.width = camera.x1 - camera.x0;
     buffer.height = camera.y1 - camera.y0;
@@ -273,15 +277,15 @@ GBuffer make_gbuffer(const GBufferInput& input, Progress& progress, ProgressSpan
     buffer.depth.resize(pixels);
     buffer.normal.resize(pixels);
 
-    const bool has_maps = input.direct.has_maps();
+    const bool maps = has_maps(input);
     for (std::size_t first = 0; first < pixels; first += kBand) {
         const std::size_t count = std::min(kBand, pixels - first);
         const auto all = static_cast<double>(pixels);
         const ProgressSpan part = part_of(span, static_cast<double>(first) / all,
                                           static_cast<double>(first + count) / all);
-        Sampled band = sample_band(input, first, count, buffer, progress,
-                                   part_of(part, 0, has_maps ? 0.5 : 1));
-        if (has_maps) light_by_maps(input.direct, band, progress, part_of(part, 0.5, 1));
+        Sampled band =
+            sample_band(input, first, count, buffer, progress, part_of(part, 0, maps ? 0.5 : 1));
+        if (maps) light_by_maps(*input.direct, band, progress, part_of(part, 0.5, 1));
         buffer.fragments.insert(buffer.fragments.end(), band.fragments.begin(),
                                 band.fragments.end());
     }

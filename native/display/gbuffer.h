@@ -40,10 +40,11 @@ struct GBuffer {
 [[nodiscard]] std::vector<std::uint32_t> pixel_starts(const GBuffer& buffer);
 
 struct GBufferInput {
-    const Scene& scene;  // has a camera
+    const Scene& scene;  // its own camera is not read
+    const Camera& camera;
     const RayScene& rays;
     const PatchTree& tree;
-    const DirectLight& direct;
+    const DirectLight* direct;          // null: fragments have emission alone
     std::span<const vec3> leaf_direct;  // #nodes, W/m2 of direct light on each leaf
     std::span<const vec3> irradiance;   // #nodes, W/m2 over links on each leaf
     bool by_leaf;                       // a fragment for each leaf, not for each surface

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
+#include "pipeline/show.h"
 #include "pipeline/stages.h"
 #include "scene/validate.h"
 
@@ -50,7 +51,12 @@ bool has_light(const Scene& scene) {
 
 }  // namespace
 
-Session::Session() : stages_(std::make_unique<Stages>()) {}
+struct Session::Impl {
+    Stages stages;
+    ChosenDisplay display;
+};
+
+Session::Session() : impl_(std::make_unique<Impl>()) {}
 Session::~Session() = default;
 
 RenderResult Session::render(Scene scene, const Options& options, bool film_transparent,
@@ -74,8 +80,21 @@ RenderResult Session::render(Scene scene, const Options& options, bool film_tran
                 "The scene has no light: add a lamp or a material with emission; the picture is "
                 "black");
         }
-        result.picture =
-            stages_->run({std::move(scene), options, film_transparent}, progress, report);
+        const SolvedScene solved =
+            impl_->stages.run({std::move(scene), options, film_transparent}, progress, report);
+        report.stages.push_back({"display", "run"});
+        report.display.mode = item_of(options, "display");
+        if (solved.input->scene.has_camera) {
+            Stopwatch watch;
+            progress.begin_stage("Display", 0.75F, 1);
+            DisplayRun run = show(solved, solved.input->scene.camera, options.resolved_display(),
+                                  {}, impl_->display, progress);
+            report.timings_s.display = watch.lap();
+            report.display.backend = run.backend;
+            report.display.renderer = run.renderer;
+            if (!run.device.warning.empty()) report.warnings.push_back(run.device.warning);
+            result.picture = std::move(run.picture);
+        }
     } catch (const std::exception& e) {
         finish(e.what());
         throw;

@@ -18,8 +18,6 @@
 
 namespace antiradiance {
 
-class Stages;
-
 struct RenderResult {
     Picture picture;
     Report report;
@@ -39,7 +37,8 @@ public:
                         double sync_seconds, Progress& progress);
 
 private:
-    std::unique_ptr<Stages> stages_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 // For a caller that failed before there was a scene.

@@ -38,8 +38,8 @@ struct View {
         std::uniform_real_distribution<float> uniform(0, 1);
         for (vec3& l : light)
             l = vec3(uniform(random));
-        buffer = make_gbuffer({scene, room.model.rays, room.model.tree, *room.direct, light, light,
-                               false, false, 4, 16},
+        buffer = make_gbuffer({scene, scene.camera, room.model.rays, room.model.tree,
+                               room.direct.get(), light, light, false, false, 4, 16},
                               progress, {});
         antiradiance = antiradiance_table(room.model.tree, room.model.links, light, progress);
     }

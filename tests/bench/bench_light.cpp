@@ -69,10 +69,10 @@ void display(benchmark::State& state, const DisplayOptions& options) {
     for (auto _ : state) {
         Progress progress;
         meter.time([&] {
-            benchmark::DoNotOptimize(
-                make_picture({room.scene, room.model.rays, room.model.planes, room.model.tree,
-                              room.model.links, nullptr, *room.direct, light, light, light},
-                             options, *backend, progress));
+            benchmark::DoNotOptimize(make_picture(
+                {room.scene, room.scene.camera, room.model.rays, room.model.planes, room.model.tree,
+                 room.model.links, nullptr, *room.direct, light, light, light},
+                options, *backend, progress));
         });
     }
     const double pixels = static_cast<double>(room.scene.camera.width) * room.scene.camera.height;

@@ -60,6 +60,47 @@ TEST(parallel_for_blocks, blocks_tile_the_range) {
     }
 }
 
+TEST(parallel_for, begins_no_body_while_paused_and_leaves_none_out) {
+    PauseGate gate;
+    Progress progress({}, {}, &gate);
+    std::vector<std::atomic<int>> visits(200);
+    std::atomic<int> done{0};
+    std::jthread loop([&] {
+        parallel_for(visits.size(), progress, [&](std::size_t i) {
+            sleep_ms(1);
+            ++visits[i];
+            ++done;
+        });
+    });
+    while (done < 10)
+        sleep_ms(1);
+    gate.hold();
+    gate.hold();
+    sleep_ms(30);  // bodies under way end
+    const int paused_at = done;
+    EXPECT_LT(paused_at, 200);
+    gate.release();  // one is left
+    sleep_ms(50);
+    EXPECT_EQ(done, paused_at);
+    gate.release();
+    loop.join();
+    for (const auto& v : visits)
+        EXPECT_EQ(v.load(), 1);
+}
+
+TEST(parallel_for, can_be_cancelled_while_paused) {
+    PauseGate gate;
+    Progress progress({}, {}, &gate);
+    gate.hold();
+    std::jthread canceller([&] {
+        sleep_ms(50);
+        progress.cancel();
+    });
+    std::atomic<int> begun{0};
+    EXPECT_THROW(parallel_for(100, progress, [&](std::size_t) { ++begun; }), Cancelled);
+    EXPECT_EQ(begun, 0);
+}
+
 TEST(parallel_for, callbacks_come_from_the_calling_thread_and_rise) {
     const auto caller = std::this_thread::get_id();
     std::vector<float> fractions;

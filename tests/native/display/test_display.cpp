@@ -49,14 +49,14 @@ struct Stage {
           irradiance(tree.size(), vec3(0)) {}
 
     GBuffer gbuffer(int samples_per_axis = 4, bool transparent = false) {
-        return make_gbuffer({scene, rays, tree, direct, irradiance, irradiance, true, transparent,
-                             samples_per_axis, 16},
+        return make_gbuffer({scene, scene.camera, rays, tree, &direct, irradiance, irradiance, true,
+                             transparent, samples_per_axis, 16},
                             progress, {0, 1});
     }
     Picture picture(bool transparent = false) {
         const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
-        return make_picture({scene, rays, planes, tree, LinkSet{}, nullptr, direct, irradiance,
-                             irradiance, irradiance, transparent, 4},
+        return make_picture({scene, scene.camera, rays, planes, tree, LinkSet{}, nullptr, direct,
+                             irradiance, irradiance, irradiance, transparent, 4},
                             {.mode = DisplayMode::kPatches}, *backend, progress);
     }
 };

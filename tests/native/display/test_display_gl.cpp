@@ -73,8 +73,9 @@ struct Lit {
         c.height = c.y1 = height;
         const DirectLight direct(scene, rays, DirectLightMode::kExplicit, progress);
         radiance.assign(tree.size(), vec3(0));
-        buffer = make_gbuffer({scene, rays, tree, direct, radiance, radiance, true, false, 4, 16},
-                              progress, {0, 1});
+        buffer = make_gbuffer(
+            {scene, scene.camera, rays, tree, &direct, radiance, radiance, true, false, 4, 16},
+            progress, {0, 1});
         std::mt19937 random(1);
         std::uniform_real_distribution<float> uniform(0, 1);
         const auto colour = [&] { return vec3(uniform(random), uniform(random), uniform(random)); };
