@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The render engine: Blender calls render() once a view layer and frame."""
+"""The render engine: Blender calls render() once a view layer and frame, view_update() after each
+edit and view_draw() at each redraw of a 3D viewport in rendered shading."""
 import time
-import traceback
 
 import bpy
 import numpy as np
 
-from . import compat, core, render_log, sessions
-from .camera import CameraError, frame_of, set_camera
+from . import compat, core, failures, live, render_log, sessions
+from .camera import frame_of, set_camera
 from .properties import option_values
 from .sync import SceneWriter, SyncCancelled
 
@@ -59,6 +59,12 @@ class AntiradianceEngine(bpy.types.RenderEngine):
         for warning in job.outcome.warnings:
             self.report({"WARNING"}, warning)
 
+    def view_update(self, context, depsgraph):
+        live.viewport_of(context.region).update(context, depsgraph)
+
+    def view_draw(self, context, depsgraph):
+        live.viewport_of(context.region).draw(self, context, depsgraph)
+
     @staticmethod
     def _views(scene):
         if not scene.render.use_multiview:
@@ -82,13 +88,7 @@ class AntiradianceEngine(bpy.types.RenderEngine):
         return sessions.session_of(self._sessions, depsgraph)
 
     def _fail(self, depsgraph, failure):
-        if isinstance(failure, CameraError) or (
-                core.native is not None and isinstance(failure, core.native.SceneError)) or (
-                core.native is None):
-            message = str(failure)
-        else:  # a bug here or in the core: what happened goes to the console, for the bug report
-            traceback.print_exc()
-            message = f"Internal error, details are in the console: {failure!r}"
+        message = failures.told(failure)
         render_log.remember(depsgraph.scene.name, render_log.Outcome(error=message))
         self.report({"ERROR"}, message)
         self.error_set(message)

@@ -6,9 +6,11 @@ import sys
 import bpy
 
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
-           "blockers", "sync", "render_log", "sessions", "properties", "engine", "presets", "ui",
-           "difference", "walls", "blocker_operators", "blocker_evaluation", "blocker_panel",
-           "blocker_overlay", "planar", "wall_junctions", "wall_planes", "propose_blockers")
+           "blockers", "sync", "render_log", "sessions", "properties", "presets", "ui", "failures",
+           "view_camera", "view_picture", "viewport_status", "viewport", "viewport_pause", "live",
+           "viewport_message", "engine", "difference", "walls", "blocker_operators",
+           "blocker_evaluation", "blocker_panel", "blocker_overlay", "planar", "wall_junctions",
+           "wall_planes", "propose_blockers")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
     _full = f"{__package__}.{_name}"
@@ -26,12 +28,15 @@ from . import (  # noqa: E402
     core,
     difference,
     engine,
+    live,
     presets,
     properties,
     propose_blockers,
     render_log,
     sessions,
     ui,
+    viewport_message,
+    viewport_pause,
 )
 
 _registered = []  # classes, in the order of registering
@@ -42,7 +47,7 @@ CLASSES_WITH_CORE = (*presets.CLASSES, *ui.CLASSES, *difference.CLASSES, *blocke
 
 
 def register():
-    classes = [*engine.CLASSES, *blockers.CLASSES]
+    classes = [*engine.CLASSES, *blockers.CLASSES, *viewport_pause.CLASSES]
     if core.native is not None:
         group = properties.make_group(core.native.options_schema())
         classes += [group, *CLASSES_WITH_CORE]
@@ -52,6 +57,7 @@ def register():
         bpy.utils.register_class(cls)
         _registered.append(cls)
     blockers.register_properties()
+    viewport_pause.register_properties()
     if core.native is not None:
         bpy.types.Scene.antiradiance = bpy.props.PointerProperty(type=group)
         difference.register_properties()
@@ -60,16 +66,21 @@ def register():
     else:
         print(f"Antiradiance: {core.load_error}", file=sys.stderr)
     sessions.register()
+    live.register()
+    viewport_message.register()
     ui.borrow_panels(engine.AntiradianceEngine.bl_idname)
 
 
 def unregister():
     ui.return_panels(engine.AntiradianceEngine.bl_idname)
+    viewport_message.unregister()
+    live.unregister()
     if hasattr(bpy.types.Scene, "antiradiance"):
         blocker_overlay.unregister()
         blocker_panel.unregister_menus()
         difference.unregister_properties()
         del bpy.types.Scene.antiradiance
+    viewport_pause.unregister_properties()
     blockers.unregister_properties()
     for cls in reversed(_registered):
         bpy.utils.unregister_class(cls)

@@ -101,13 +101,14 @@ class SceneWriter:
             self._warned.add(text)
             self._warn(text)
 
-    def write(self, depsgraph, cancelled=lambda: False):
-        """All instances, lamps, the blocking planes that take part, and the world."""
+    def write(self, depsgraph, cancelled=lambda: False, shows=lambda _object: True):
+        """All instances, lamps, the blocking planes that take part, and the world. shows(object):
+        whether a viewport shows an evaluated object that the view layer shows."""
         override = depsgraph.view_layer_eval.material_override
         for instance in depsgraph.object_instances:
             if cancelled():
                 raise SyncCancelled
-            if instance.show_self:
+            if instance.show_self and shows(instance.object):
                 self._add(instance, override)
         for blocker in taking_part(self._blockers):
             self._scene.add_blocker(blocker.name, positions=blocker.mesh.positions,
@@ -122,7 +123,7 @@ class SceneWriter:
         elif is_blocker(item):
             settings = item.antiradiance
             self._blockers.append(Blocker(
-                display_name(instance), self._read(item.data), matrix_of(instance), settings.mute,
+                display_name(instance), self._read(item), matrix_of(instance), settings.mute,
                 settings.solo))
         elif item.type == "MESH":
             self._add_mesh(instance, item, override)
@@ -137,14 +138,20 @@ class SceneWriter:
                for modifier in item.modifiers):
             self.warn_once(f"Object '{item.name}': its hair particles are not rendered")
 
-    def _read(self, mesh) -> MeshArrays:
+    def _read(self, item) -> MeshArrays:
+        mesh = item.data
+        if mesh.is_editmode:  # its arrays are those from before the editing
+            try:
+                return read_mesh(item.to_mesh())
+            finally:
+                item.to_mesh_clear()
         key = mesh.as_pointer()
         if key not in self._meshes:
             self._meshes[key] = read_mesh(mesh)
         return self._meshes[key]
 
     def _add_mesh(self, instance, item, override):
-        mesh = self._read(item.data)
+        mesh = self._read(item)
         if not len(mesh.triangles):
             return  # vertices and edges only
         self._note_unsupported(item)
