@@ -8,6 +8,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import core
+from .images import ImageCache
 from .ui import ENGINE
 from .viewport import Viewport, settings_of
 
@@ -31,6 +32,7 @@ class SolverPool:
 
 
 _solvers = SolverPool()
+_images = ImageCache()
 _viewports: dict[int, Viewport] = {}  # pointer of the region ->
 
 
@@ -38,7 +40,7 @@ def viewport_of(region) -> Viewport:
     """What is behind a region; made when it is asked for, and with it the timer."""
     key = region.as_pointer()
     if key not in _viewports:
-        _viewports[key] = Viewport(key, _solvers)
+        _viewports[key] = Viewport(key, _solvers, _images)
         if not bpy.app.timers.is_registered(_tick):
             bpy.app.timers.register(_tick, first_interval=INTERVAL)
     return _viewports[key]
@@ -83,6 +85,8 @@ def _keep_only(keys):
     for key in _viewports.keys() - keys:
         _viewports.pop(key).close()
     _solvers.keep_only({viewport.solver_key for viewport in _viewports.values()})
+    if not _viewports:
+        _images.clear()
 
 
 @persistent

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from . import compat
 from .colour import BLACK, Colour, Mapping, UnsupportedShading, constant
-from .images import open_image
+from .images import open_image, read_pixels
 from .nodes import Place, Surface, Walk, surface
 
 DEFAULT_ALBEDO = 0.8  # Blender's surface without a material
@@ -17,8 +17,9 @@ class SceneMaterial:
     mapping: Mapping | None  # where its textures are looked up; None: it has none
 
 
-def translate(material, note) -> Surface:
-    """The surface of a material; `note(text)` gets what was left out, and why if it fell back."""
+def translate(material, note, read=read_pixels) -> Surface:
+    """The surface of a material; `note(text)` gets what was left out, and why if it fell back.
+    read: of images, as read_pixels()."""
     if material is None:
         return Surface(albedo=constant(DEFAULT_ALBEDO))
     viewport = Surface(albedo=constant(material.diffuse_color))
@@ -28,7 +29,7 @@ def translate(material, note) -> Surface:
     if output is None:
         note("it has no Material Output node, it is rendered black")
         return Surface()
-    walk = Walk(lambda node, mapping: open_image(node, mapping, note))
+    walk = Walk(lambda node, mapping: open_image(node, mapping, note, read))
     try:
         result = surface(Place(output.inputs["Surface"]), walk)
     except UnsupportedShading as reason:
@@ -50,9 +51,10 @@ def average(colour: Colour) -> Colour:
 class MaterialTable:
     """Adds materials and textures to `scene` (the native one) as they are met."""
 
-    def __init__(self, scene, warn):
+    def __init__(self, scene, warn, read=read_pixels):
         self._scene = scene
         self._warn = warn
+        self._read = read
         self._materials = {}  # key of the material -> SceneMaterial
         self._textures = {}   # Texture.key -> index in the scene
 
@@ -71,7 +73,7 @@ class MaterialTable:
                 seen.add(text)
                 self._warn(f"Material '{name}': {text}")
 
-        result = translate(material, note)
+        result = translate(material, note, self._read)
         albedo, emission = result.albedo, result.emission
         used = [colour.texture for colour in (albedo, emission) if colour.texture is not None]
         if len(used) == 2 and used[0].mapping != used[1].mapping:

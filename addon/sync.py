@@ -6,6 +6,7 @@ import numpy as np
 
 from . import compat
 from .blockers import is_blocker, taking_part
+from .images import read_pixels
 from .lamps import add_lamp
 from .materials import MaterialTable
 from .world import set_background
@@ -88,11 +89,13 @@ class Blocker:
 class SceneWriter:
     """Adds what the depsgraph holds to `scene`, the core's (or one that records, in a test)."""
 
-    def __init__(self, scene, warn):
+    def __init__(self, scene, warn, read=read_pixels):
+        """read: of images, as read_pixels()"""
         self._scene = scene
         self._warn = warn
+        self._read_image = read
         self._warned = set()
-        self._materials = MaterialTable(scene, warn)
+        self._materials = MaterialTable(scene, warn, read)
         self._meshes = {}  # pointer of the evaluated mesh -> MeshArrays; they live as long as we do
         self._blockers = []
 
@@ -113,7 +116,7 @@ class SceneWriter:
         for blocker in taking_part(self._blockers):
             self._scene.add_blocker(blocker.name, positions=blocker.mesh.positions,
                                     matrix=blocker.matrix, triangles=blocker.mesh.triangles)
-        set_background(self._scene, depsgraph.scene.world, self.warn_once)
+        set_background(self._scene, depsgraph.scene.world, self.warn_once, self._read_image)
 
     def _add(self, instance, override):
         item = instance.object  # valid until the iterator moves on

@@ -27,13 +27,14 @@ def settings_of(scene) -> tuple[dict, bool]:
 class Viewport:
     """What is behind a region; live.py has the table of them."""
 
-    def __init__(self, key: int, solvers):
-        """key: of the region. solvers: the SolverPool that solvers come from"""
+    def __init__(self, key: int, solvers, images):
+        """key: of the region. solvers: the SolverPool that solvers come from. images: ImageCache"""
         self.key = key
         self.solver_key = None     # of its solver in the pool; None: it has posted nothing yet
         self.posted_settings = None
         self.status = Status()     # as last drawn
         self._solvers = solvers
+        self._images = images
         self._solver = self._view = None
         self._newest = None        # of LiveView.picture(), not drawn yet
         self._number = -1          # of the newest picture
@@ -85,7 +86,8 @@ class Viewport:
             hidden += not visible and thing.type in RENDERED_TYPES
             return visible
 
-        SceneWriter(scene, scene.add_warning).write(depsgraph, shows=shows)
+        self._images.forget_edited(depsgraph.updates)
+        SceneWriter(scene, scene.add_warning, self._images.read_pixels).write(depsgraph, shows=shows)
         # One that shows less than the view layer does has a solution of its own.
         self._use_solver((context.scene.name_full, depsgraph.view_layer.name,
                           self.key if hidden else None))

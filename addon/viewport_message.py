@@ -7,6 +7,7 @@ from gpu_extras.batch import batch_for_shader
 
 from . import live
 from .ui import ENGINE
+from .viewport_status import wrapped
 
 TEXT_SIZE = 12.0       # px at Blender's own scale, as the lengths below
 MARGIN, PADDING, SPACING = 20.0, 12.0, 1.5  # SPACING: of lines, in text sizes
@@ -15,25 +16,6 @@ BACKGROUND, COLOUR = (0.22, 0.03, 0.03, 0.92), (1.0, 0.93, 0.9, 1.0)
 FONT = 0
 
 _handlers = []
-
-
-def wrapped(text: str, width: float, length) -> list[str]:
-    """Lines of up to `width`, broken between words where there are any; length(text): of a line."""
-    lines = []
-    for paragraph in text.splitlines():
-        line = ""
-        for word in paragraph.split():
-            if line and length(f"{line} {word}") > width:
-                lines.append(line)
-                line = ""
-            line = f"{line} {word}" if line else word
-            while length(line) > width and len(line) > 1:  # paths have no spaces
-                fits = next(n for n in range(len(line) - 1, 0, -1)
-                            if n == 1 or length(line[:n]) <= width)
-                lines.append(line[:fits])
-                line = line[fits:]
-        lines.append(line)
-    return lines
 
 
 def free_span(area, region):

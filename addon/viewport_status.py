@@ -50,10 +50,29 @@ def quality(being_made: str, shown: str) -> str:
 def shortened(count: int) -> str:
     """Three digits or less, as 10.2 M."""
     for size, unit in ((1e9, " G"), (1e6, " M"), (1e3, " k")):
-        if count >= size:
+        if count >= 0.9995 * size:  # what rounds to 1000 of the next unit
             return f"{count / size:.3g}{unit}"
     return str(count)
 
 
 def counted(count: int, thing: str) -> str:
     return "" if count == 0 else f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def wrapped(text: str, width: float, length) -> list[str]:
+    """Lines of up to `width`, broken between words where there are any; length(text): of a line."""
+    lines = []
+    for paragraph in text.splitlines():
+        line = ""
+        for word in paragraph.split():
+            if line and length(f"{line} {word}") > width:
+                lines.append(line)
+                line = ""
+            line = f"{line} {word}" if line else word
+            while length(line) > width and len(line) > 1:  # paths have no spaces
+                fits = next(n for n in range(len(line) - 1, 0, -1)
+                            if n == 1 or length(line[:n]) <= width)
+                lines.append(line[:fits])
+                line = line[fits:]
+        lines.append(line)
+    return lines

@@ -4,7 +4,7 @@ import numpy as np
 
 from . import compat
 from .colour import Colour, Mapping, Texture, UnsupportedShading, constant, multiply
-from .images import open_image
+from .images import open_image, read_pixels
 from .nodes import Place, Walk, colour, source
 
 
@@ -15,10 +15,10 @@ def latitude_mean(pixels: np.ndarray) -> np.ndarray:
     return (pixels[..., :3].mean(axis=1) * weights[:, None]).sum(axis=0) / weights.sum()
 
 
-def environment_mean(node, note) -> Colour:
+def environment_mean(node, note, read) -> Colour:
     if node.image is None:
         raise UnsupportedShading(f"the environment texture '{node.name}' has no image")
-    texture: Texture = open_image(node, Mapping(), note)
+    texture: Texture = open_image(node, Mapping(), note, read)
     if texture.missing_path is not None:
         raise UnsupportedShading(f"the image '{texture.name}' cannot be read from "
                                  f"{texture.missing_path}")
@@ -26,7 +26,7 @@ def environment_mean(node, note) -> Colour:
     return constant(latitude_mean(texture.pixels()))
 
 
-def background(world, note) -> Colour:
+def background(world, note, read) -> Colour:
     if not compat.uses_nodes(world):
         return constant(world.color)
     output = compat.output_node(world.node_tree)
@@ -44,12 +44,13 @@ def background(world, note) -> Colour:
     strength = colour(Place(node.inputs["Strength"], at.groups), walk)
     above, above_socket = source(Place(node.inputs["Color"], at.groups))
     if above_socket is not None and above.socket.type == "TEX_ENVIRONMENT":
-        return multiply(environment_mean(above.socket, note), strength)
+        return multiply(environment_mean(above.socket, note, read), strength)
     return multiply(colour(Place(node.inputs["Color"], at.groups), walk), strength)
 
 
-def set_background(scene, world, warn):
-    """`scene`: the core's; `world`: Blender's or None, which is black."""
+def set_background(scene, world, warn, read=read_pixels):
+    """`scene`: the core's; `world`: Blender's or None, which is black; `read`: of images, as
+    read_pixels()."""
     if world is None:
         scene.set_background((0.0, 0.0, 0.0))
         return
@@ -58,7 +59,7 @@ def set_background(scene, world, warn):
         warn(f"World '{world.name}': {text}")
 
     try:
-        radiance = background(world, note).factor
+        radiance = background(world, note, read).factor
     except UnsupportedShading as reason:
         radiance = tuple(world.color)
         note(f"its viewport colour fills the background, because {reason}")
