@@ -10,8 +10,8 @@ class ViewPicture:
 
     def __init__(self, picture: dict):
         """picture: of LiveView.picture()"""
-        self.number = picture["number"]
         self.quality = picture["quality"]
+        self.solution = picture["solution"]
         self._border = picture["border"]
         height, width, _ = picture["combined"].shape
         # Half floats hold what an eye can tell apart; what exceeds them would become infinite.

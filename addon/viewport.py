@@ -35,10 +35,10 @@ class Viewport:
         self.status = Status()     # as last drawn
         self._solvers = solvers
         self._images = images
-        self._solver = self._view = None
+        self.solver = self.view = None
         self._newest = None        # of LiveView.picture(), not drawn yet
-        self._number = -1          # of the newest picture
-        self._picture = None       # the ViewPicture that is drawn
+        self._number = 0           # of the newest picture
+        self.picture = None        # the ViewPicture that is drawn
         self._failures = {}        # "update" or "draw" -> message of the exception that it ended in
 
     def update(self, context, depsgraph):
@@ -50,15 +50,15 @@ class Viewport:
         """The newest picture and the status line; the message of an error is drawn on top later."""
         if self.solver_key is None and "update" not in self._failures:
             self.update(context, depsgraph)
-        if self._view is not None:
+        if self.view is not None:
             with self._failing("draw"):
                 self._draw(engine, context, depsgraph)
         self.status = self._present_status()
         engine.update_stats("", self.status.line)
 
     def pause(self, paused: bool):
-        if self._solver is not None:
-            self._solver.pause(paused)
+        if self.solver is not None:
+            self.solver.pause(paused)
 
     def has_news(self) -> bool:
         """Whether drawing again would show something else."""
@@ -66,9 +66,9 @@ class Viewport:
         return self._newest is not None or self._present_status() != self.status
 
     def close(self):
-        if self._view is not None:
-            self._view.stop()
-        self._view = self._solver = self._picture = self._newest = self.solver_key = None
+        if self.view is not None:
+            self.view.stop()
+        self.view = self.solver = self.picture = self._newest = self.solver_key = None
 
     def _failing(self, what):
         return failures.caught(self._failures, what)
@@ -91,40 +91,40 @@ class Viewport:
         # One that shows less than the view layer does has a solution of its own.
         self._use_solver((context.scene.name_full, depsgraph.view_layer.name,
                           self.key if hidden else None))
-        self._solver.pause(context.scene.antiradiance_viewport.pause)
+        self.solver.pause(context.scene.antiradiance_viewport.pause)
         self.posted_settings = settings_of(context.scene)
         options, film_transparent = self.posted_settings
-        self._solver.post(scene, options, film_transparent=film_transparent,
+        self.solver.post(scene, options, film_transparent=film_transparent,
                           sync_seconds=time.perf_counter() - begin)
 
     def _use_solver(self, key):
         if key == self.solver_key:
             return
-        if self._view is not None:
-            self._view.stop()
-        self._solver = self._solvers.solver(key)
-        self._view = core.native.LiveView(self._solver)
-        self._newest, self._number = None, -1
+        if self.view is not None:
+            self.view.stop()
+        self.solver = self._solvers.solver(key)
+        self.view = core.native.LiveView(self.solver)
+        self._newest, self._number = None, 0
         self.solver_key = key
 
     def _draw(self, engine, context, depsgraph):
         camera = camera_of(context, depsgraph)
         if camera is None:  # the border is out of sight
             return
-        self._view.set_camera(camera.pop("matrix"), **camera)
+        self.view.set_camera(camera.pop("matrix"), **camera)
         self._fetch()
         if self._newest is not None:
-            self._picture, self._newest = ViewPicture(self._newest), None
-        if self._picture is not None:
-            self._picture.draw(engine, context.scene)
+            self.picture, self._newest = ViewPicture(self._newest), None
+        if self.picture is not None:
+            self.picture.draw(engine, context.scene)
 
     def _fetch(self):
-        newest = None if self._view is None else self._view.picture(self._number)
+        newest = None if self.view is None else self.view.picture(self._number)
         if newest is not None:
             self._newest, self._number = newest, newest["number"]
 
     def _present_status(self) -> Status:
-        if self._failures or self._view is None:
+        if self._failures or self.view is None:
             return Status(error="\n".join(self._failures.values()))
-        return status_of(self._solver.state(), self._view.state(),
-                         "" if self._picture is None else self._picture.quality)
+        return status_of(self.solver.state(), self.view.state(),
+                         "" if self.picture is None else self.picture.quality)

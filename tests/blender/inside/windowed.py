@@ -11,6 +11,7 @@
 """
 
 import os
+import time
 import traceback
 
 import bpy
@@ -44,8 +45,18 @@ def _after_drawing():
     _drawn["times"] += 1
 
 
-def drive(steps):
-    """Runs the generator function `steps` to its end; what it returns goes to recorder.finish()."""
+def until(condition, seconds=60.0):
+    """Steps until `condition()` holds. Its docstring tells what did not come about."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError(f"after {seconds} s: {condition.__doc__ or condition}")
+        yield
+
+
+def drive(steps, redraw=True):
+    """Runs the generator function `steps` to its end; what it returns goes to recorder.finish().
+    redraw: False: a step every INTERVAL, and the view is drawn when Blender or the add-on want."""
     bpy.context.preferences.view.show_splash = False
     bpy.types.SpaceView3D.draw_handler_add(_after_drawing, (), "WINDOW", "POST_PIXEL")
     generator = steps()
@@ -54,6 +65,9 @@ def drive(steps):
     def tick():
         nonlocal waited_for
         try:
+            if not redraw:
+                next(generator)
+                return INTERVAL
             if _drawn["times"] >= waited_for:
                 next(generator)
                 # The drawing that is under way may have begun before the step.
