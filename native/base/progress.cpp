@@ -28,11 +28,11 @@ void Progress::poll() {
 
 void Progress::report(float fraction) {
     poll();
+    if (report_) report_(begin_ + (end_ - begin_) * std::clamp(fraction, 0.0F, 1.0F), stage_);
     while (paused()) {
         gate_->wait(kPollInterval);
         poll();
     }
-    if (report_) report_(begin_ + (end_ - begin_) * std::clamp(fraction, 0.0F, 1.0F), stage_);
 }
 
 void Progress::wait_while_paused() const {

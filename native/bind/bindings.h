@@ -11,6 +11,7 @@ namespace antiradiance {
 void bind_schema(pybind11::module_& module);      // options_schema, active_options, presets
 void bind_scene(pybind11::module_& module);       // Scene
 void bind_session(pybind11::module_& module);     // Session, compare_visibility, ...
+void bind_live(pybind11::module_& module);        // LiveSolver, LiveView
 void bind_blockers(pybind11::module_& module);    // evaluate_blockers, lit_sides
 void bind_difference(pybind11::module_& module);  // luminance_difference
 

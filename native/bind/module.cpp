@@ -9,6 +9,7 @@ PYBIND11_MODULE(_antiradiance, module) {
     antiradiance::bind_schema(module);
     antiradiance::bind_scene(module);
     antiradiance::bind_session(module);
+    antiradiance::bind_live(module);
     antiradiance::bind_blockers(module);
     antiradiance::bind_difference(module);
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "bind/arrays.h"
 #include "bind/bindings.h"
+#include "bind/by_name.h"
+#include "bind/camera_binding.h"
 #include "scene/scene.h"
 
 #include <pybind11/stl.h>
@@ -17,20 +20,6 @@ namespace {
 static_assert(sizeof(vec2) == 2 * sizeof(float) && sizeof(vec3) == 3 * sizeof(float) &&
                   sizeof(vec4) == 4 * sizeof(float) && sizeof(uvec3) == 3 * sizeof(std::int32_t),
               "numpy arrays are borrowed as arrays of these");
-
-// The value that `name` stands for; the error for an unknown one lists the valid ones.
-template <typename Value>
-Value by_name(const std::string& name, const std::string& what,
-              std::initializer_list<std::pair<const char*, Value>> table) {
-    std::string valid;
-    for (const auto& [id, value] : table) {
-        if (name == id) {
-            return value;
-        }
-        valid += valid.empty() ? id : std::string(", ") + id;
-    }
-    throw py::value_error(what + " must be one of " + valid + ", not '" + name + "'");
-}
 
 void check_index(std::int32_t index, std::size_t count, const std::string& what) {
     if (index != kNone && (index < 0 || static_cast<std::size_t>(index) >= count)) {
@@ -172,40 +161,18 @@ int add_lamp(Scene& scene, const std::string& name, const std::string& type,
     return static_cast<int>(scene.lamps.size()) - 1;
 }
 
-void set_camera(Scene& scene, const py::object& matrix, const std::string& type, int width,
-                int height, float left, float right, float bottom, float top, float clip_start,
-                float clip_end, const std::array<int, 4>& border) {
-    const auto [x0, y0, x1, y1] = border;
-    if (!(0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height)) {
-        throw py::value_error("border must lie inside the frame of " + std::to_string(width) +
-                              " x " + std::to_string(height) + " pixels and hold at least one");
-    }
-    scene.camera = {.to_world = to_matrix(matrix, "matrix of the camera"),
-                    .type = by_name<CameraType>(type, "type of the camera",
-                                                {{"PERSP", CameraType::kPerspective},
-                                                 {"ORTHO", CameraType::kOrthographic}}),
-                    .left = left,
-                    .right = right,
-                    .bottom = bottom,
-                    .top = top,
-                    .clip_start = clip_start,
-                    .clip_end = clip_end,
-                    .width = width,
-                    .height = height,
-                    .x0 = x0,
-                    .y0 = y0,
-                    .x1 = x1,
-                    .y1 = y1};
-    scene.has_camera = true;
-}
-
 }  // namespace
 
 void bind_scene(py::module_& module) {
-    py::class_<Scene>(module, "Scene",
-                      "Plain arrays on their way to the core: metres, W/(m2 sr), linear Rec.709. "
-                      "Each add_ returns an index that later calls refer to")
-        .def(py::init<>())
+    py::class_<Scene> scene_class(
+        module, "Scene",
+        "Plain arrays on their way to the core: metres, W/(m2 sr), linear Rec.709. "
+        "Each add_ returns an index that later calls refer to");
+    def_set_camera(scene_class, [](Scene& scene, const Camera& camera) {
+        scene.camera = camera;
+        scene.has_camera = true;
+    });
+    scene_class.def(py::init<>())
         .def("add_texture", &add_texture, "name"_a, "pixels"_a,
              "pixels: (h, w, 4) float32, linear Rec.709, row 0 at v = 0")
         .def("add_missing_texture", &add_missing_texture, "name"_a, "path"_a,
@@ -231,10 +198,6 @@ void bind_scene(py::module_& module) {
              "size_x"_a = 1.0F, "size_y"_a = 1.0F, "visible_to_camera"_a = false, "spread"_a = kPi,
              "type: POINT, SPOT, SUN or AREA; color: colour x W (SUN: W/m2); lengths in m, full "
              "angles in rad; shape: RECTANGLE or ELLIPSE")
-        .def("set_camera", &set_camera, "matrix"_a, py::kw_only(), "type"_a, "width"_a, "height"_a,
-             "left"_a, "right"_a, "bottom"_a, "top"_a, "clip_start"_a, "clip_end"_a, "border"_a,
-             "type: PERSP or ORTHO; left..top: the view frame at distance 1 (PERSP) or in metres; "
-             "border: (x0, y0, x1, y1), pixels of the full frame, row 0 below")
         .def(
             "set_background",
             [](Scene& scene, const py::object& radiance) {

@@ -188,7 +188,8 @@ VisibilityRays visibility_rays(const Options& options) {
             .emitters_shine = options.direct_light == DirectLightMode::kImplicit};
 }
 
-Model build_model(const Scene& scene, const Options& options, Progress& progress) {
+Model build_model(const Scene& scene, const Options& options, Progress& progress,
+                  float coarseness) {
     Stopwatch watch;
     progress.begin_stage("Building the patch hierarchy", 0.02F, 0.1F);
     Model model{RayScene(scene), {}, {}, {}, {}, {}, {}};
@@ -201,9 +202,11 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
         return model;
     }
     const float patch_size =
-        options.max_patch_size > 0 ? options.max_patch_size : automatic_patch_size(surfaces);
+        coarseness *
+        (options.max_patch_size > 0 ? options.max_patch_size : automatic_patch_size(surfaces));
     check_memory(scene, surfaces, patch_size);
     RefineOptions refine = refine_options(options, patch_size, surfaces.size());
+    refine.link_threshold *= coarseness;
     refine.planes = &model.planes;
     GrowingTree growing(std::move(surfaces));
     const std::string burden = check_implicit_links(scene, growing, options, refine);

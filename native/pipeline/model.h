@@ -37,8 +37,9 @@ struct Model {
 // How rays test the links of a scene.
 [[nodiscard]] VisibilityRays visibility_rays(const Options& options);
 
-// `scene` is valid (see validate()). Throws SceneError when the patches or links would not fit into
-// memory, before they are made.
-Model build_model(const Scene& scene, const Options& options, Progress& progress);
+// `scene` is valid (see validate()); coarseness: as in StageInput. Throws SceneError when the
+// patches or links would not fit into memory, before they are made.
+Model build_model(const Scene& scene, const Options& options, Progress& progress,
+                  float coarseness = 1);
 
 }  // namespace antiradiance

@@ -8,9 +8,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
+#include "pipeline/check_scene.h"
 #include "pipeline/show.h"
 #include "pipeline/stages.h"
-#include "scene/validate.h"
 
 namespace antiradiance {
 
@@ -39,16 +39,6 @@ private:
     std::ofstream file_;
 };
 
-bool has_light(const Scene& scene) {
-    for (const Lamp& lamp : scene.lamps) {
-        if (max_component(lamp.power) > 0) return true;
-    }
-    for (const std::int32_t m : scene.triangle_material) {
-        if (scene.materials[static_cast<std::size_t>(m)].emits()) return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 struct Session::Impl {
@@ -74,12 +64,7 @@ RenderResult Session::render(Scene scene, const Options& options, bool film_tran
     };
     try {
         progress.begin_stage("Checking the scene", 0, 0.02F);
-        report.warnings = validate(scene);
-        if (!has_light(scene)) {
-            report.warnings.emplace_back(
-                "The scene has no light: add a lamp or a material with emission; the picture is "
-                "black");
-        }
+        report.warnings = check_scene(scene);
         const SolvedScene solved =
             impl_->stages.run({std::move(scene), options, film_transparent}, progress, report);
         report.stages.push_back({"display", "run"});

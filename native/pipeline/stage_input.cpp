@@ -69,7 +69,8 @@ auto model_options(const Options& o) {
 }  // namespace
 
 bool same_model_input(const StageInput& was, const StageInput& is) {
-    return model_options(was.options) == model_options(is.options) &&
+    return was.coarseness == is.coarseness &&
+           model_options(was.options) == model_options(is.options) &&
            geometry(was.scene) == geometry(is.scene) && was.scene.blockers == is.scene.blockers &&
            same(was.scene.objects, is.scene.objects, &Object::name) &&  // in warnings
            same(was.scene.materials, is.scene.materials, &Material::emits) &&
@@ -120,6 +121,26 @@ bool same_evaluation_input(const StageInput& was, const StageInput& is) {
     return was.options.evaluate_pruning == is.options.evaluate_pruning &&
            (!is.options.evaluate_pruning ||
             was.options.pruning_directions == is.options.pruning_directions);
+}
+
+bool same_solution_input(const StageInput& was, const StageInput& is) {
+    return same_model_input(was, is) && same_pruning_input(was, is) &&
+           same_direct_light_input(was, is) && same_transport_input(was, is) &&
+           same_solve_input(was, is) && same_evaluation_input(was, is);
+}
+
+bool same_picture_input(const StageInput& was, const StageInput& is) {
+    const auto display = [](const Options& o) {
+        return std::tuple(o.resolved_display(), o.display, o.solver);
+    };
+    return display(was.options) == display(is.options) &&
+           was.film_transparent == is.film_transparent &&
+           was.scene.background == is.scene.background && was.scene.uv == is.scene.uv &&
+           was.scene.normals == is.scene.normals && same_albedo(was.scene, is.scene) &&
+           same_emission(was.scene, is.scene) &&
+           std::ranges::equal(was.scene.lamps, is.scene.lamps, [](const Lamp& a, const Lamp& b) {
+               return light(a) == light(b) && a.visible_to_camera == b.visible_to_camera;
+           });
 }
 
 }  // namespace antiradiance

@@ -15,6 +15,9 @@ struct StageInput {
     Scene scene;  // valid (see validate())
     Options options;
     bool film_transparent = false;
+    // Above 1, for a first look: patches are that many times as long, and links split that many
+    // times as late.
+    float coarseness = 1;
 };
 
 // Whether links are pruned: EXPLICIT has tested each of them with rays.
@@ -26,5 +29,10 @@ struct StageInput {
 [[nodiscard]] bool same_transport_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_solve_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_evaluation_input(const StageInput& was, const StageInput& is);
+
+// Whether no stage has to run again.
+[[nodiscard]] bool same_solution_input(const StageInput& was, const StageInput& is);
+// Whether pictures are the same as well, from one camera and the same solution.
+[[nodiscard]] bool same_picture_input(const StageInput& was, const StageInput& is);
 
 }  // namespace antiradiance

@@ -29,7 +29,8 @@ struct Stage {
 
 void run_model(const StageInput& input, SolvedScene& solved, Report::Timings& timings,
                Progress& progress) {
-    solved.model = std::make_shared<Model>(build_model(input.scene, input.options, progress));
+    solved.model = std::make_shared<Model>(
+        build_model(input.scene, input.options, progress, input.coarseness));
     const Model& model = *solved.model;
     timings.hierarchy = model.hierarchy_seconds;
     timings.links = model.links_seconds;

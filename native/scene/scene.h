@@ -65,6 +65,8 @@ struct Camera {
     float clip_end = 1000;               // m, along the view axis
     int width = 0, height = 0;           // pixels of the full frame
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels of it to render, [x0,x1) x [y0,y1), row 0 below
+
+    bool operator==(const Camera&) const = default;
 };
 
 struct Object {

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live/live_view.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+
+namespace antiradiance {
+
+namespace {
+
+constexpr std::chrono::duration<double> kRest{0.12};  // without a move, for a view to rest
+
+// Quick pictures come before solving.
+class StandAside {
+public:
+    StandAside(PauseGate& gate, bool stand_aside) : gate_(stand_aside ? &gate : nullptr) {
+        if (gate_) gate_->hold();
+    }
+    ~StandAside() {
+        if (gate_) gate_->release();
+    }
+    StandAside(const StandAside&) = delete;
+    StandAside& operator=(const StandAside&) = delete;
+
+private:
+    PauseGate* gate_;
+};
+
+bool is_urgent(LevelName level) {
+    return level == LevelName::kNavigation || level == LevelName::kQuick;
+}
+
+double pixels_of(const Camera& camera) {
+    return static_cast<double>(camera.x1 - camera.x0) * static_cast<double>(camera.y1 - camera.y0);
+}
+
+}  // namespace
+
+LiveView::LiveView(std::shared_ptr<LiveSolver> solver)
+    : solver_(std::move(solver)), thread_([this] { serve(); }) {}
+
+void LiveView::stop() {
+    {
+        const std::scoped_lock lock(mutex_);
+        stop_ = true;
+    }
+    solver_->bell().ring();
+    if (thread_.joinable()) thread_.join();
+}
+
+void LiveView::set_camera(const Camera& camera) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (camera_ == camera) return;
+        // The first one is where the view begins, not a move.
+        if (camera_) moved_at_ = std::chrono::steady_clock::now();
+        camera_ = camera;
+        ++camera_number_;
+    }
+    solver_->bell().ring();
+}
+
+LiveView::State LiveView::state() const {
+    const std::scoped_lock lock(mutex_);
+    return state_;
+}
+
+std::shared_ptr<const LivePicture> LiveView::newest() const {
+    const std::scoped_lock lock(mutex_);
+    return newest_;
+}
+
+std::optional<LiveView::Subject> LiveView::subject() const {
+    const LiveSolver::State solving = solver_->state();
+    Subject result;
+    result.solution = solver_->newest();
+    // While paused, what there is is all there will be.
+    result.whole = !solving.working || solving.paused;
+    const std::scoped_lock lock(mutex_);
+    if (!result.solution || !camera_) return std::nullopt;
+    result.camera = *camera_;
+    result.camera_number = camera_number_;
+    return result;
+}
+
+double LiveView::seconds_to_rest() const {
+    const std::scoped_lock lock(mutex_);
+    return (moved_at_ + kRest - std::chrono::steady_clock::now()) / std::chrono::seconds(1);
+}
+
+std::optional<PictureLevel> LiveView::next_level(const Subject& subject) const {
+    const std::vector<PictureLevel> levels = picture_levels(subject.solution->scene.input->options);
+    const bool is_new = tried_.solution != subject.solution ||
+                        tried_.camera_number != subject.camera_number || !best_;
+    const bool resting = seconds_to_rest() <= 0;
+    if (is_new) return levels.front();
+    if (!resting) return std::nullopt;
+    const auto next = std::ranges::find_if(
+        levels, [&](const PictureLevel& level) { return level.name > *best_; });
+    if (next == levels.end() || (!subject.whole && !is_urgent(next->name))) return std::nullopt;
+    return *next;
+}
+
+void LiveView::serve() {
+    while (true) {
+        const std::uint64_t heard = solver_->bell().rings();
+        const std::optional<Subject> now = subject();
+        const std::optional<PictureLevel> level = now ? next_level(*now) : std::nullopt;
+        {
+            const std::scoped_lock lock(mutex_);
+            if (stop_) return;
+            state_.making = level ? std::optional(level->name) : std::nullopt;
+        }
+        if (level) {
+            make(*now, *level);
+        } else if (const double rest = seconds_to_rest(); rest > 0) {
+            solver_->bell().wait_for(heard, std::chrono::duration<double>(rest));
+        } else {
+            solver_->bell().wait(heard);
+        }
+    }
+}
+
+bool LiveView::is_outdated(const Subject& subject) const {
+    const bool same_solution = solver_->newest() == subject.solution;
+    const std::scoped_lock lock(mutex_);
+    return stop_ || !same_solution || camera_number_ != subject.camera_number;
+}
+
+void LiveView::make(const Subject& subject, const PictureLevel& level) {
+    const bool navigates = level.name == LevelName::kNavigation;
+    // A navigation picture is finished though the view has moved on: else there would be none
+    // as long as it moves.
+    Progress progress({}, [&] {
+        if (!navigates) return is_outdated(subject);
+        const std::scoped_lock lock(mutex_);
+        return stop_;
+    });
+    const double pixels = pixels_of(subject.camera);
+    const float share = navigates ? pace_.share(pixels) : 1;
+    LevelName shown = level.name;
+    std::string error;
+    try {
+        auto picture = std::make_shared<LivePicture>();
+        const StandAside urgent(solver_->gate(), is_urgent(level.name));
+        Stopwatch watch;
+        const Camera camera = share < 1 ? scaled(subject.camera, share) : subject.camera;
+        DisplayRun run =
+            show(subject.solution->scene, camera, level.options, level.quality, display_, progress);
+        picture->seconds = watch.lap();
+        picture->picture = std::move(run.picture);
+        picture->camera = subject.camera;
+        picture->solution = subject.solution->number;
+        if (navigates) pace_.add(pixels_of(camera), picture->seconds);
+        // With all pixels it is as good as the next level.
+        if (navigates && share == 1) shown = LevelName::kQuick;
+        picture->level = shown;
+        const std::scoped_lock lock(mutex_);
+        picture->number = newest_ ? newest_->number + 1 : 1;
+        if (navigates) ++state_.navigation_pictures;
+        newest_ = std::move(picture);
+    } catch (const Cancelled&) {
+        return;
+    } catch (const std::exception& failure) {
+        error = failure.what();
+        shown = LevelName::kFinal;  // the same would fail again
+    }
+    tried_ = subject;
+    best_ = shown;
+    const std::scoped_lock lock(mutex_);
+    state_.error = error;
+}
+
+}  // namespace antiradiance
