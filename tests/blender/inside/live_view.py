@@ -107,9 +107,9 @@ def solver_state(region):
     return viewport(region).solver.state()
 
 
-def stages(region):
-    """stage -> "run" or "kept", of the newest solution."""
-    return json.loads(solver_state(region)["report"])["stages"]
+def report(region):
+    """Of the newest solution."""
+    return json.loads(solver_state(region)["report"])
 
 
 def is_final(region):

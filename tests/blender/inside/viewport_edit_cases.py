@@ -23,7 +23,7 @@ def counted(region, edit, steps_after):
     yield from steps_after(region, edit)
     after = live_view.solver_state(region)
     return {**{name: after[name] - before[name] for name in ("edits", "solutions")},
-            "stages": live_view.stages(region)}
+            "stages": live_view.report(region)["stages"]}
 
 
 def set_color(material, value):
