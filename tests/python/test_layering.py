@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing in native/ includes to its left: bind -> pipeline -> ... -> base."""
+"""Nothing in native/ includes to its left: bind -> inspect -> pipeline -> ... -> base."""
 
 import pathlib
 import re
@@ -20,7 +20,8 @@ ALLOWED = {
     "display": {"base", "gpu", "scene", "hierarchy", "links", "prune", "solve"},
     "pipeline": {"base", "gpu", "scene", "hierarchy", "links", "prune", "solve", "display"},
 }
-ALLOWED["bind"] = ALLOWED["pipeline"] | {"pipeline"}
+ALLOWED["inspect"] = ALLOWED["pipeline"] | {"pipeline"}
+ALLOWED["bind"] = ALLOWED["inspect"] | {"inspect"}
 ALLOWED["tools"] = ALLOWED["pipeline"] | {"pipeline"}
 # The OpenGL siblings (*_gl.h, *_gl.cpp) of any folder may use the context as well.
 OPENGL_SIBLING = re.compile(r"_gl\.(h|cpp)$")
