@@ -162,10 +162,10 @@ void draw_outlines(const std::vector<NodeId>& seen, Picture& picture) {
 // 1 where a surface faces the viewer.
 float shade(const Fragment& f, const GBuffer& buffer, const Camera& camera,
             const CameraRays& rays) {
-    const auto width = static_cast<std::uint32_t>(buffer.width);
-    const vec2 centre(static_cast<float>(camera.x0) + static_cast<float>(f.pixel % width) + 0.5F,
-                      static_cast<float>(camera.y0) + static_cast<float>(f.pixel / width) + 0.5F);
-    const float cosine = std::abs(glm::dot(f.shading_normal, rays.at(centre).direction));
+    const auto pixel = static_cast<int>(f.pixel);
+    const ivec2 corner(camera.x0 + pixel % buffer.width, camera.y0 + pixel / buffer.width);
+    const float cosine =
+        std::abs(glm::dot(f.shading_normal, rays.at(vec2(corner) + 0.5F).direction));
     return glm::mix(kGrazing, 1.0F, cosine);
 }
 

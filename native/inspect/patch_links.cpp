@@ -56,6 +56,7 @@ void keep_largest(const PatchTree& tree, NodeId leaf, std::size_t most,
 
 void find_occluded(const Model& model, std::vector<PatchLink>& links) {
     std::vector<TestedPair> pairs;
+    pairs.reserve(links.size());
     for (const PatchLink& l : links)
         pairs.push_back({.a = l.source,
                          .b = l.receiver,

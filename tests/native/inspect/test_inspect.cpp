@@ -200,5 +200,17 @@ TEST(Draw, NothingIsBlackOrTransparentAsTheFilm) {
     }
 }
 
+TEST(Draw, AnySceneThatNoLightReachesIsBlack) {
+    Scene dark;
+    test::add_box(dark, "Room", vec3(0), vec3(6, 4, 3), test::add_material(dark, vec3(0.5F)),
+                  test::Facing::kInward);
+    const SolvedScene solved = test::solve(dark, test::coarse(Visibility::kImplicit));
+    for (const InspectMode mode : {InspectMode::kHierarchy, InspectMode::kIncomingBin,
+                                   InspectMode::kResidual, InspectMode::kExplicitDifference}) {
+        for (const vec4& pixel : drawn(solved, inspected(solved, {.mode = mode}, &solved)).combined)
+            ASSERT_EQ(pixel, vec4(0, 0, 0, 1));
+    }
+}
+
 }  // namespace
 }  // namespace antiradiance
