@@ -8,9 +8,9 @@ import bpy
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
            "blockers", "sync", "render_log", "sessions", "properties", "presets", "ui", "failures",
            "view_camera", "view_picture", "viewport_status", "viewport", "viewport_pause", "live",
-           "viewport_message", "engine", "difference", "walls", "blocker_operators",
-           "blocker_evaluation", "blocker_panel", "blocker_overlay", "planar", "wall_junctions",
-           "wall_planes", "propose_blockers")
+           "viewport_message", "viewport_panel", "engine", "difference", "walls",
+           "blocker_operators", "blocker_evaluation", "blocker_panel", "blocker_overlay", "planar",
+           "wall_junctions", "wall_planes", "propose_blockers")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
     _full = f"{__package__}.{_name}"
@@ -36,6 +36,7 @@ from . import (  # noqa: E402
     sessions,
     ui,
     viewport_message,
+    viewport_panel,
     viewport_pause,
 )
 
@@ -43,7 +44,8 @@ _registered = []  # classes, in the order of registering
 
 
 CLASSES_WITH_CORE = (*presets.CLASSES, *ui.CLASSES, *difference.CLASSES, *blocker_operators.CLASSES,
-                     *blocker_evaluation.CLASSES, *propose_blockers.CLASSES, *blocker_panel.CLASSES)
+                     *blocker_evaluation.CLASSES, *propose_blockers.CLASSES, *blocker_panel.CLASSES,
+                     *viewport_panel.CLASSES)
 
 
 def register():

@@ -43,7 +43,7 @@ def test_pause_holds_edits(cases):
 def test_an_error_shows_and_goes(cases):
     before, wrong, cured = cases["missing_image"]
     assert before["error"] == cured["error"] == ""
-    assert before["text pixels"] == cured["text pixels"] < 10, "Blender's own"
+    assert max(before["text pixels"], cured["text pixels"]) < 10, "a few of Blender's own"
     assert "bricks" in wrong["error"] and "/nowhere/bricks.png" in wrong["error"]
     assert wrong["text pixels"] > 50 and "final" not in wrong["line"]
     assert wrong["lit"] == before["lit"] > 0, "the old picture stays"
