@@ -171,8 +171,9 @@ def described(function, *arguments):
 
 
 def lit_room():
-    """A floor and a block under a point lamp, in a scene of their own, quick to solve."""
+    """A floor and a block under a point lamp in the dark, quick to solve, and nothing else."""
     scene = recorder.empty_scene()
+    scene.world = None
     scene.render.engine = "ANTIRADIANCE"
     scene.antiradiance.link_threshold = 0.1
     recorder.quad("Floor", scale=(4, 4, 1)).data.materials.append(

@@ -43,6 +43,11 @@ def left():
             "timer": bpy.app.timers.is_registered(live._tick), "pictures": len(pictures)}
 
 
+def threads():
+    """Number of this process's, the core's included."""
+    return len(os.listdir("/proc/self/task"))
+
+
 def nothing_left():
     """viewports and solvers of the add-on end"""
     return not live_view.live._viewports and not live_view.live._solvers._solvers
@@ -140,9 +145,9 @@ def undone_and_redone():
 def disabled():
     """The add-on, with a view that works; enabled again, the view goes on."""
     scene, space, region = yield from working_view()
-    threads = len(os.listdir("/proc/self/task"))
+    before = threads()
     addon_utils.disable(PACKAGE)
-    result = {"left": left(), "threads": len(os.listdir("/proc/self/task")) - threads}
+    result = {"left": left(), "threads": threads() - before}
     yield
     addon_utils.enable(PACKAGE)
     scene.render.engine = "ANTIRADIANCE"
@@ -168,7 +173,7 @@ def many_cycles():
         space.shading.type = "SOLID"
         yield from windowed.until(nothing_left)
         if cycle in {WARM_UP - 1, WARM_UP + CYCLES - 1}:
-            counts.append({"threads": len(os.listdir("/proc/self/task")), **left()})
+            counts.append({"threads": threads(), **left()})
     return counts
 
 
