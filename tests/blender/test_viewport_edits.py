@@ -4,8 +4,8 @@
 import pytest
 
 @pytest.fixture(scope="module")
-def edits(in_window):
-    return in_window("viewport_edit_cases.py", timeout=600)
+def edits(in_window, tmp_path_factory):
+    return in_window("viewport_edit_cases.py", tmp_path_factory.mktemp("images"), timeout=600)
 
 
 @pytest.mark.parametrize("edit", ["lamp energy", "lamp colour", "material colour",
@@ -28,6 +28,17 @@ def test_geometry_is_linked_anew(edits, edit):
     case = edits[edit]
     assert case["edits"] == 1 and case["solutions"] >= 1
     assert case["stages"]["model"] == "run"
+
+
+@pytest.mark.parametrize("edit", ["image generated", "colour space", "image painted",
+                                  "image loaded", "image loaded again"])
+def test_images_are_read_again_when_they_change(edits, edit):
+    assert edits[edit]["edits"] == 1 and edits[edit]["images read"] >= 1
+
+
+@pytest.mark.parametrize("edit", ["lamp energy", "material colour", "object moved", "selection"])
+def test_images_are_not_read_again_for_other_edits(edits, edit):
+    assert edits[edit]["images read"] == 0
 
 
 @pytest.mark.parametrize("edit", ["exposure", "view transform", "selection", "camera"])
