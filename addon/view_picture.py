@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A picture of the core on the graphics card, as a 3D viewport shows it."""
 import gpu
-import numpy as np
 from gpu_extras.presets import draw_texture_2d
 from mathutils import Matrix
 
@@ -10,14 +9,13 @@ class ViewPicture:
     """Made and drawn in view_draw() only, where Blender's context is current."""
 
     def __init__(self, picture: dict):
-        """picture: of LiveView.picture(), which is used up"""
+        """picture: of LiveView.picture()"""
         self.quality = picture["quality"]
         self.solution = picture["solution"]
         self.border = picture["border"]
         pixels = picture["combined"]
         height, width, _ = pixels.shape
-        # Half floats hold what an eye can tell apart; what exceeds them would become infinite.
-        np.minimum(pixels, np.finfo(np.float16).max, out=pixels)
+        # Half floats hold what an eye can tell apart.
         self._texture = gpu.types.GPUTexture(
             (width, height), format="RGBA16F",
             data=gpu.types.Buffer("FLOAT", pixels.size, pixels.reshape(-1)))

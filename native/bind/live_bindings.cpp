@@ -30,7 +30,7 @@ py::dict state_of_solver(const LiveSolver& solver) {
                     "fraction"_a = state.fraction, "error"_a = state.error, "edits"_a = state.edits,
                     "solutions"_a = newest ? newest->number : 0,
                     "preliminary"_a = newest && newest->preliminary,
-                    "report"_a = newest ? newest->report.to_json() : std::string(),
+                    "report"_a = newest ? newest->report_json : std::string(),
                     "warnings"_a = newest ? newest->report.warnings : std::vector<std::string>());
 }
 
@@ -47,13 +47,25 @@ void set_inspection(LiveView& view, const std::string& mode, int level, int bin)
     view.set_inspection({static_cast<InspectMode>(item - modes.begin()), level, bin});
 }
 
+// (h, w, 4), without a copy: a picture of a large viewport takes its time.
+py::array_t<float> pixels_of(std::shared_ptr<const LivePicture> shown) {
+    const Picture& picture = shown->picture;
+    const Shape shape{picture.height, picture.width, 4};
+    const auto* first = reinterpret_cast<const float*>(picture.combined.data());
+    auto* owner = new std::shared_ptr<const LivePicture>(std::move(shown));
+    const py::capsule keep(
+        owner, [](void* kept) { delete static_cast<std::shared_ptr<const LivePicture>*>(kept); });
+    py::array_t<float> pixels(shape, first, keep);
+    pixels.attr("flags").attr("writeable") = false;
+    return pixels;
+}
+
 py::object newest_picture(const LiveView& view, std::uint64_t known) {
     const auto newest = view.newest();
     if (!newest || newest->number == known) return py::none();
-    const Picture& picture = newest->picture;
     const Camera& camera = newest->camera;
     return py::dict("number"_a = newest->number, "solution"_a = newest->solution,
-                    "combined"_a = image(picture.combined, picture.width, picture.height),
+                    "combined"_a = pixels_of(newest),
                     "border"_a = py::make_tuple(camera.x0, camera.y0, camera.x1, camera.y1),
                     "quality"_a = std::string(name_of(newest->level)),
                     "seconds"_a = newest->seconds);
@@ -98,7 +110,9 @@ void bind_live(py::module_& module) {
         .def(
             "picture", &newest_picture, "known"_a,
             "None when the newest picture is number `known` or there is none, else a dict: number; "
-            "combined (h,w,4) f32 linear Rec.709, premultiplied, row 0 below, to be stretched over "
+            "combined (h,w,4) f32, read-only, linear Rec.709, premultiplied, no more than half "
+            "floats "
+            "hold, row 0 below, to be stretched over "
             "border (x0, y0, x1, y1), pixels of the camera's frame; quality, NAVIGATION, QUICK, "
             "INTERLEAVED or FINAL; solution, its number; seconds that it took")
         .def("stop", &LiveView::stop, py::call_guard<py::gil_scoped_release>(),

@@ -160,10 +160,12 @@ Report LiveSolver::report_of(const Edit& edit, const std::vector<std::string>& w
 
 void LiveSolver::publish(SolvedScene solved, Report report, double seconds, bool preliminary) {
     report.timings_s.total = report.timings_s.sync + seconds;
+    std::string json = report.to_json();
     {
         const std::scoped_lock lock(mutex_);
-        newest_ = std::make_shared<const Solution>(Solution{
-            newest_ ? newest_->number + 1 : 1, preliminary, std::move(solved), std::move(report)});
+        newest_ = std::make_shared<const Solution>(Solution{newest_ ? newest_->number + 1 : 1,
+                                                            preliminary, std::move(solved),
+                                                            std::move(report), std::move(json)});
         state_.error.clear();
     }
     bell_.ring();

@@ -32,6 +32,7 @@ public:
         bool preliminary = false;
         SolvedScene scene;
         Report report;
+        std::string report_json;
     };
     struct State {
         bool working = false;  // there are edits without their whole solution

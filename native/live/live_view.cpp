@@ -34,6 +34,13 @@ bool is_urgent(LevelName level) {
     return level == LevelName::kNavigation || level == LevelName::kQuick;
 }
 
+// Viewports keep pixels as half floats, in which more would become infinite.
+void clamp_to_half(std::vector<vec4>& pixels) {
+    constexpr float kLargestHalf = 65504;
+    for (vec4& pixel : pixels)
+        pixel = glm::min(pixel, vec4(kLargestHalf));
+}
+
 double pixels_of(const Camera& camera) {
     return static_cast<double>(camera.x1 - camera.x0) * static_cast<double>(camera.y1 - camera.y0);
 }
@@ -174,6 +181,7 @@ void LiveView::make(const Subject& subject, const PictureLevel& level) {
         Stopwatch watch;
         const Camera camera = share < 1 ? scaled(subject.camera, share) : subject.camera;
         picture->picture = draw(subject, level, camera, progress);
+        clamp_to_half(picture->picture.combined);
         picture->seconds = watch.lap();
         picture->camera = subject.camera;
         picture->solution = subject.solution->number;

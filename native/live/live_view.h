@@ -23,7 +23,7 @@ struct LivePicture {
     std::uint64_t solution = 0;  // LiveSolver::Solution::number
     Camera camera;               // the picture fills its border, and may have fewer pixels
     LevelName level{};
-    Picture picture;
+    Picture picture;     // no value above 65504, the largest of a half float
     double seconds = 0;  // that it took
 };
 
