@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live/live_solver.h"
 
+#include <chrono>
 #include <utility>
 
 #include "base/error.h"
@@ -13,6 +14,8 @@ namespace {
 
 // A solution that takes longer than this is preceded by a coarse one.
 constexpr double kSoon = 0.25;  // s
+// Of quick work that turns out not to be, until a newer edit may cancel it.
+constexpr std::chrono::seconds kPatience{1};
 // In the office with visibility EXPLICIT, 3 makes a tenth of the links in a seventh of the time.
 constexpr float kCoarseness = 3;
 
@@ -47,7 +50,8 @@ void LiveSolver::post(StageInput input, double sync_seconds) {
         waiting_ = Edit{edit, sync_seconds};
         state_.working = true;
         ++state_.edits;
-        if (running_ && !same_solution_input(*running_for_, *edit)) running_->cancel();
+        if (running_ && !same_solution_input(*running_for_, *edit) && !is_shielded())
+            running_->cancel();
     }
     bell_.ring();
 }
@@ -60,6 +64,24 @@ void LiveSolver::pause(bool paused) {
     }
     paused ? gate_.hold() : gate_.release();
     bell_.ring();
+}
+
+bool LiveSolver::is_shielded() const {
+    return std::chrono::steady_clock::now() < shielded_until_;
+}
+
+// What comes next is quick: it is finished though another edit waits, or one that is dragged would
+// show nothing until it rests.
+void LiveSolver::shield() {
+    const std::scoped_lock lock(mutex_);
+    shielded_until_ = std::chrono::steady_clock::now() + kPatience;
+}
+
+// What comes next takes its time. Throws Cancelled when an edit waits that it does not solve for.
+void LiveSolver::unshield() {
+    const std::scoped_lock lock(mutex_);
+    shielded_until_ = {};
+    if (waiting_ && !same_solution_input(*running_for_, *waiting_->input)) throw Cancelled();
 }
 
 LiveSolver::State LiveSolver::state() const {
@@ -125,10 +147,14 @@ void LiveSolver::solve(const Edit& edit, Progress& progress) {
     StageInput input = *edit.input;
     progress.begin_stage("Checking the scene", 0, 0.02F);
     const std::vector<std::string> warnings = check_scene(input.scene);
-    if (whole_.expected_seconds(input) > kSoon && !solve_relit(input, edit, warnings, progress)) {
-        StageInput coarse = input;
-        coarse.coarseness = kCoarseness;
-        solve_with(coarse_, std::move(coarse), edit, warnings, progress);
+    shield();
+    if (whole_.expected_seconds(input) > kSoon) {
+        if (!solve_relit(input, edit, warnings, progress)) {
+            StageInput coarse = input;
+            coarse.coarseness = kCoarseness;
+            solve_with(coarse_, std::move(coarse), edit, warnings, progress);
+        }
+        unshield();
     }
     solve_with(whole_, std::move(input), edit, warnings, progress);
 }

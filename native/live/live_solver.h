@@ -6,6 +6,7 @@
 //   auto now = solver.newest();    // a coarse solution soon, the whole one after it
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -48,9 +49,10 @@ public:
     LiveSolver(const LiveSolver&) = delete;
     LiveSolver& operator=(const LiveSolver&) = delete;
 
-    // The newest edit, which replaces any that waits. Running work goes on if it solves for the
-    // same; nothing happens when no picture would differ. What is wrong with the scene shows in
-    // state(). The options' report and evaluation of pruning are left out. From any thread.
+    // The newest edit, which replaces any that waits. Running work is cancelled unless it solves
+    // for the same or is about to end; nothing happens when no picture would differ. What is wrong
+    // with the scene shows in state(). The options' report and evaluation of pruning are left out.
+    // From any thread.
     void post(StageInput input, double sync_seconds = 0);
 
     // Cancels the work and waits for its end, some 50 ms. Edits are then left alone.
@@ -83,6 +85,9 @@ private:
     static Report report_of(const Edit& edit, const std::vector<std::string>& warnings);
     void publish(SolvedScene solved, Report report, double seconds, bool preliminary);
     void finish(const std::string& error);
+    [[nodiscard]] bool is_shielded() const;
+    void shield();
+    void unshield();
 
     PauseGate gate_;
     Bell bell_;
@@ -94,6 +99,7 @@ private:
     std::shared_ptr<const StageInput> last_posted_;
     std::shared_ptr<const StageInput> running_for_;
     Progress* running_ = nullptr;
+    std::chrono::steady_clock::time_point shielded_until_;  // from edits; not from stop()
     std::shared_ptr<const Solution> newest_;
     bool stop_ = false;
 

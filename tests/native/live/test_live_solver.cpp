@@ -166,6 +166,25 @@ TEST(LiveSolver, TheNewestEditCancelsRunningWork) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
+TEST(LiveSolver, AnEditThatIsDraggedIsShownOnTheWay) {
+    LiveSolver solver;
+    StageInput input = much_work();
+    input.options.link_threshold = 0.1F;
+    solver.post(input);
+    ASSERT_TRUE(wait_until_done(solver));
+    const std::uint64_t before = solver.newest()->number;
+    // Faster than any solution; the edits are of two kinds, so that all are relit or made coarse.
+    for (int i = 0; i < 300; ++i) {
+        if (i % 2) input.scene.lamps[0].power *= 1.01F;
+        input.scene.positions[0].x += i < 150 ? 0.0F : 0.001F;
+        solver.post(input);
+        sleep_ms(5);
+    }
+    EXPECT_GE(solver.newest()->number, before + 3);
+    ASSERT_TRUE(wait_until_done(solver));
+    EXPECT_EQ(solver.newest()->scene.input->scene.lamps[0].power, input.scene.lamps[0].power);
+}
+
 TEST(LiveSolver, AnEditThatSolvesForTheSameLetsTheWorkGoOn) {
     LiveSolver solver;
     StageInput input = office();
