@@ -14,6 +14,7 @@ void bind_session(pybind11::module_& module);     // Session, compare_visibility
 void bind_live(pybind11::module_& module);        // LiveSolver, LiveView
 void bind_blockers(pybind11::module_& module);    // evaluate_blockers, lit_sides
 void bind_difference(pybind11::module_& module);  // luminance_difference
+void bind_inspect(pybind11::module_& module);     // SolvedScene, links_of, inspect_modes, ...
 
 // values: name -> value; options that it lacks are at their defaults. Throws SceneError.
 Options to_options(const pybind11::dict& values);

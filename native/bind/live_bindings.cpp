@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rendered viewport. No thread of the core calls Python, and nothing here waits for one but the
 // ends of a solver and a view.
+#include <algorithm>
+#include <span>
 #include <string>
 
 #include "bind/arrays.h"
@@ -30,6 +32,19 @@ py::dict state_of_solver(const LiveSolver& solver) {
                     "coarse"_a = newest && newest->coarse,
                     "report"_a = newest ? newest->report.to_json() : std::string(),
                     "warnings"_a = newest ? newest->report.warnings : std::vector<std::string>());
+}
+
+// A copy, which shares all: null before the first.
+std::shared_ptr<SolvedScene> solution_of(const LiveSolver& solver) {
+    const auto newest = solver.newest();
+    return newest ? std::make_shared<SolvedScene>(newest->scene) : nullptr;
+}
+
+void set_inspection(LiveView& view, const std::string& mode, int level, int bin) {
+    const std::span<const EnumItem> modes = inspect_modes();
+    const auto item = std::ranges::find(modes, mode, &EnumItem::id);
+    if (item == modes.end()) throw py::value_error("there is no inspection '" + mode + "'");
+    view.set_inspection({static_cast<InspectMode>(item - modes.begin()), level, bin});
 }
 
 py::object newest_picture(const LiveView& view, std::uint64_t known) {
@@ -63,6 +78,9 @@ void bind_live(py::module_& module) {
              "The newest edit. Cancels running work that solves for something else; nothing "
              "happens when no picture would differ. What is wrong with the scene shows in state()")
         .def("pause", &LiveSolver::pause, "paused"_a, "While paused, edits wait")
+        .def("solution", &solution_of, "The newest SolvedScene, or None")
+        .def("stop", &LiveSolver::stop, py::call_guard<py::gil_scoped_release>(),
+             "Cancels the work and waits for its end; edits are then left alone")
         .def(
             "state", &state_of_solver,
             "A dict: working, there are edits without their whole solution; paused; stage and "
@@ -74,7 +92,10 @@ void bind_live(py::module_& module) {
                               "own: quick ones while its camera moves, better ones when it rests");
     view.def(py::init<std::shared_ptr<LiveSolver>>(), "solver"_a);
     def_set_camera(view, [](LiveView& self, const Camera& camera) { self.set_camera(camera); });
-    view.def(
+    view.def("set_inspection", &set_inspection, "mode"_a, "level"_a = 0, "bin"_a = 0,
+             "mode: one of inspect_modes(), OFF for the picture; level: steps above the leaves, of "
+             "HIERARCHY; bin: of INCOMING_BIN")
+        .def(
             "picture", &newest_picture, "known"_a,
             "None when the newest picture is number `known` or there is none, else a dict: number; "
             "combined (h,w,4) f32 linear Rec.709, premultiplied, row 0 below, to be stretched over "

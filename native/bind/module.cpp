@@ -12,4 +12,5 @@ PYBIND11_MODULE(_antiradiance, module) {
     antiradiance::bind_live(module);
     antiradiance::bind_blockers(module);
     antiradiance::bind_difference(module);
+    antiradiance::bind_inspect(module);
 }

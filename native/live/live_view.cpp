@@ -59,7 +59,17 @@ void LiveView::set_camera(const Camera& camera) {
         // The first one is where the view begins, not a move.
         if (camera_) moved_at_ = std::chrono::steady_clock::now();
         camera_ = camera;
-        ++camera_number_;
+        ++request_;
+    }
+    solver_->bell().ring();
+}
+
+void LiveView::set_inspection(const InspectOptions& options) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (inspection_ == options) return;
+        inspection_ = options;
+        ++request_;
     }
     solver_->bell().ring();
 }
@@ -83,7 +93,8 @@ std::optional<LiveView::Subject> LiveView::subject() const {
     const std::scoped_lock lock(mutex_);
     if (!result.solution || !camera_) return std::nullopt;
     result.camera = *camera_;
-    result.camera_number = camera_number_;
+    result.inspection = inspection_;
+    result.request = request_;
     return result;
 }
 
@@ -93,9 +104,12 @@ double LiveView::seconds_to_rest() const {
 }
 
 std::optional<PictureLevel> LiveView::next_level(const Subject& subject) const {
-    const std::vector<PictureLevel> levels = picture_levels(subject.solution->scene.input->options);
-    const bool is_new = tried_.solution != subject.solution ||
-                        tried_.camera_number != subject.camera_number || !best_;
+    const std::vector<PictureLevel> levels =
+        subject.inspection.mode == InspectMode::kOff
+            ? picture_levels(subject.solution->scene.input->options)
+            : inspection_levels();
+    const bool is_new =
+        tried_.solution != subject.solution || tried_.request != subject.request || !best_;
     const bool resting = seconds_to_rest() <= 0;
     if (is_new) return levels.front();
     if (!resting) return std::nullopt;
@@ -128,7 +142,17 @@ void LiveView::serve() {
 bool LiveView::is_outdated(const Subject& subject) const {
     const bool same_solution = solver_->newest() == subject.solution;
     const std::scoped_lock lock(mutex_);
-    return stop_ || !same_solution || camera_number_ != subject.camera_number;
+    return stop_ || !same_solution || request_ != subject.request;
+}
+
+Picture LiveView::draw(const Subject& subject, const PictureLevel& level, const Camera& camera,
+                       Progress& progress) {
+    if (subject.inspection.mode != InspectMode::kOff) {
+        return inspector_.draw(subject.solution, subject.inspection, camera,
+                               level.quality.samples_per_axis, progress);
+    }
+    return show(subject.solution->scene, camera, level.options, level.quality, display_, progress)
+        .picture;
 }
 
 void LiveView::make(const Subject& subject, const PictureLevel& level) {
@@ -149,10 +173,8 @@ void LiveView::make(const Subject& subject, const PictureLevel& level) {
         const StandAside urgent(solver_->gate(), is_urgent(level.name));
         Stopwatch watch;
         const Camera camera = share < 1 ? scaled(subject.camera, share) : subject.camera;
-        DisplayRun run =
-            show(subject.solution->scene, camera, level.options, level.quality, display_, progress);
+        picture->picture = draw(subject, level, camera, progress);
         picture->seconds = watch.lap();
-        picture->picture = std::move(run.picture);
         picture->camera = subject.camera;
         picture->solution = subject.solution->number;
         if (navigates) pace_.add(pixels_of(camera), picture->seconds);

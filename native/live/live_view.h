@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "live/inspector.h"
 #include "live/live_solver.h"
 #include "live/picture_levels.h"
 #include "pipeline/choose_display.h"
@@ -43,6 +44,8 @@ public:
     void stop();
 
     void set_camera(const Camera& camera);
+    // What to show instead of the picture; kOff: the picture.
+    void set_inspection(const InspectOptions& options);
 
     [[nodiscard]] State state() const;
     [[nodiscard]] std::shared_ptr<const LivePicture> newest() const;  // null before the first
@@ -52,7 +55,8 @@ private:
     struct Subject {
         std::shared_ptr<const LiveSolver::Solution> solution;
         Camera camera;
-        std::uint64_t camera_number = 0;
+        InspectOptions inspection;
+        std::uint64_t request = 0;
         bool whole = false;  // no edit is being solved: the best picture is worth its time
     };
 
@@ -60,10 +64,13 @@ private:
     [[nodiscard]] std::optional<Subject> subject() const;
     [[nodiscard]] std::optional<PictureLevel> next_level(const Subject& subject) const;
     void make(const Subject& subject, const PictureLevel& level);
+    [[nodiscard]] Picture draw(const Subject& subject, const PictureLevel& level,
+                               const Camera& camera, Progress& progress);
     [[nodiscard]] bool is_outdated(const Subject& subject) const;
     [[nodiscard]] double seconds_to_rest() const;
 
     std::shared_ptr<LiveSolver> solver_;
+    Inspector inspector_;            // of the thread
     ChosenDisplay display_;          // of the thread
     NavigationPace pace_;            // of the thread
     Subject tried_;                  // the last subject, of the thread
@@ -72,7 +79,8 @@ private:
     mutable std::mutex mutex_;  // of what follows
     State state_;
     std::optional<Camera> camera_;
-    std::uint64_t camera_number_ = 0;
+    InspectOptions inspection_;
+    std::uint64_t request_ = 0;  // how often one of them changed
     std::chrono::steady_clock::time_point moved_at_;
     std::shared_ptr<const LivePicture> newest_;
     bool stop_ = false;

@@ -60,6 +60,11 @@ std::vector<PictureLevel> picture_levels(const Options& options) {
     return levels;
 }
 
+std::vector<PictureLevel> inspection_levels() {
+    return {{LevelName::kNavigation, {}, {.samples_per_axis = 1}},
+            {LevelName::kFinal, {}, {.samples_per_axis = 2}}};
+}
+
 Camera scaled(const Camera& camera, float share) {
     // The border's own pixels are scaled, and the view frame is cut to the border: so it stays
     // exactly what it is, whatever pixels a scaled full frame would have.

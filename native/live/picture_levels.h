@@ -25,8 +25,10 @@ struct PictureLevel {
     PictureQuality quality;
 };
 
-// In their order, for what a render with these options shows in the end.
+// In their order, for what a render with these options shows in the end. What is inspected has no
+// display options: its levels are two, and of their quality the samples alone count.
 [[nodiscard]] std::vector<PictureLevel> picture_levels(const Options& options);
+[[nodiscard]] std::vector<PictureLevel> inspection_levels();
 
 // The camera with its pixels reduced to `share` of them along each side, at least one.
 [[nodiscard]] Camera scaled(const Camera& camera, float share);

@@ -8,6 +8,7 @@
 #include "display/display.h"
 #include "gpu/gl_thread.h"
 #include "meter.h"
+#include "pipeline/show.h"
 #include "stages.h"
 
 namespace antiradiance::bench {
@@ -61,7 +62,8 @@ void draw_shadow_maps(benchmark::State& state) {
 }
 BENCHMARK(draw_shadow_maps)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void display(benchmark::State& state, const DisplayOptions& options) {
+void display(benchmark::State& state, const DisplayOptions& options,
+             const PictureQuality& quality = {}) {
     const Stages& room = stages(Visibility::kExplicit);
     const std::vector<vec3> light(room.model.tree.size(), vec3(1));
     const std::unique_ptr<DisplayBackend> backend = make_cpu_display();
@@ -71,7 +73,8 @@ void display(benchmark::State& state, const DisplayOptions& options) {
         meter.time([&] {
             benchmark::DoNotOptimize(make_picture(
                 {room.scene, room.scene.camera, room.model.rays, room.model.planes, room.model.tree,
-                 room.model.links, nullptr, *room.direct, light, light, light},
+                 room.model.links, nullptr, *room.direct, light, light, light, false,
+                 quality.samples_per_axis, quality.direct_of_leaves},
                 options, *backend, progress));
         });
     }
@@ -89,6 +92,9 @@ constexpr DisplayOptions shooting(ShootingVisibility visibility, ShootingLevel l
     BENCHMARK_CAPTURE(display, name, __VA_ARGS__)->UseManualTime()->Unit(benchmark::kMillisecond)
 DISPLAY_BENCHMARK(patches, {DisplayMode::kPatches});
 DISPLAY_BENCHMARK(splatting, {DisplayMode::kSplatting});
+// What a viewport shows while its camera moves.
+DISPLAY_BENCHMARK(navigation, {DisplayMode::kSplatting},
+                  {.samples_per_axis = 1, .direct_of_leaves = true});
 
 constexpr auto kRays = ShootingVisibility::kRays;
 constexpr auto kAntiradiance = ShootingVisibility::kAntiradiance;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing in native/ includes to its left: bind -> live -> pipeline -> ... -> base."""
+"""Nothing in native/ includes to its left: bind -> live -> inspect -> pipeline -> ... -> base."""
 
 import pathlib
 import re
@@ -20,7 +20,8 @@ ALLOWED = {
     "display": {"base", "gpu", "scene", "hierarchy", "links", "prune", "solve"},
     "pipeline": {"base", "gpu", "scene", "hierarchy", "links", "prune", "solve", "display"},
 }
-ALLOWED["live"] = ALLOWED["pipeline"] | {"pipeline"}
+ALLOWED["inspect"] = ALLOWED["pipeline"] | {"pipeline"}
+ALLOWED["live"] = ALLOWED["inspect"] | {"inspect"}
 ALLOWED["bind"] = ALLOWED["live"] | {"live"}
 ALLOWED["tools"] = ALLOWED["pipeline"] | {"pipeline"}
 # The OpenGL siblings (*_gl.h, *_gl.cpp) of any folder may use the context as well.

@@ -173,6 +173,30 @@ TEST_F(LiveViewOfTheOffice, WhilePausedTheOldSolutionIsShownAtItsBest) {
     solver_->pause(false);
 }
 
+TEST_F(LiveViewOfTheOffice, InspectionsAreDrawnInsteadOfThePicture) {
+    solve();
+    show();
+    const auto picture = view_.newest();
+    for (const InspectMode mode : {InspectMode::kHierarchy, InspectMode::kExplicitDifference}) {
+        const std::uint64_t before = view_.newest()->number;
+        view_.set_inspection({.mode = mode});
+        ASSERT_TRUE(wait_for([&] {
+            return view_.newest()->number > before && view_.newest()->level == LevelName::kFinal;
+        }));
+        const auto drawn = view_.newest();
+        EXPECT_EQ(drawn->picture.combined.size(), picture->picture.combined.size());
+        EXPECT_NE(drawn->picture.combined, picture->picture.combined);
+    }
+    // The visibility is EXPLICIT: it differs from itself nowhere.
+    for (const vec4& pixel : view_.newest()->picture.combined) {
+        EXPECT_EQ(pixel.x, pixel.y);
+        EXPECT_EQ(pixel.x, pixel.z);
+    }
+    view_.set_inspection({});
+    EXPECT_TRUE(
+        wait_for([&] { return view_.newest()->picture.combined == picture->picture.combined; }));
+}
+
 TEST_F(LiveViewOfTheOffice, StopsInTheMiddleOfAPicture) {
     input_ = office(640, 480);
     input_.options.direct_samples = 256;
