@@ -28,7 +28,7 @@ class SolverPool:
 
     def keep_only(self, keys):
         for key in self._solvers.keys() - keys:
-            self._solvers.pop(key).stop()
+            del self._solvers[key]  # which ends its thread
 
 
 _solvers = SolverPool()

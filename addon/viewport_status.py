@@ -21,14 +21,14 @@ def status_of(solver: dict, view: dict, shown: str) -> Status:
     parts = [
         "Paused" if solver["paused"] else "",
         progress(solver) or figures(solver["report"]),
-        "" if error else quality(view["quality"], shown),
+        "" if error else quality(view["making"], shown),
         counted(len(solver["warnings"]), "warning"),
     ]
     return Status(" · ".join(part for part in parts if part), error)
 
 
 def progress(solver: dict) -> str:
-    return f"{solver['stage']} {solver['fraction']:.0%}" if solver["busy"] else ""
+    return f"{solver['stage']} {solver['fraction']:.0%}" if solver["working"] else ""
 
 
 @functools.lru_cache(maxsize=4)  # it is asked for many times a second

@@ -15,12 +15,12 @@ def status(addon_module):
 
 
 def solver(**changes):
-    return {"busy": False, "paused": False, "stage": "", "fraction": 0.0, "error": "",
+    return {"working": False, "paused": False, "stage": "", "fraction": 0.0, "error": "",
             "report": REPORT, "warnings": [], **changes}
 
 
 def view(**changes):
-    return {"quality": "", "error": "", **changes}
+    return {"making": "", "error": "", **changes}
 
 
 def test_figures_of_a_finished_solution(status):
@@ -29,12 +29,12 @@ def test_figures_of_a_finished_solution(status):
 
 
 def test_progress_takes_the_place_of_the_figures(status):
-    solving = solver(busy=True, stage="Linking patches", fraction=0.424)
+    solving = solver(working=True, stage="Linking patches", fraction=0.424)
     assert status.status_of(solving, view(), "").line == "Linking patches 42%"
 
 
 def test_the_picture_in_work(status):
-    line = status.status_of(solver(), view(quality="INTERLEAVED"), "QUICK").line
+    line = status.status_of(solver(), view(making="INTERLEAVED"), "QUICK").line
     assert line.endswith(" s · interleaved picture in work")
 
 

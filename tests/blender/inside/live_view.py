@@ -15,7 +15,7 @@ import windowed
 
 live, viewport_module = recorder.addon("live"), recorder.addon("viewport")
 
-SECONDS = 120.0  # that any of the work here may take on a machine that does something else as well
+SECONDS = 60.0  # that any of the work here may take on a machine that does something else as well
 
 
 @dataclass
@@ -86,19 +86,16 @@ def split(region, direction, share):
 def small_views(count=1):
     """Steps to the smallest `count` 3D views, some 170 x 120 pixels each, of as many as that takes:
     [(space, region)] in solid shading."""
-    while len(views()) < 3:
+    while len(views()) < 1 + count:
         split(views()[-1][1], "VERTICAL", 0.2)
-    yield
-    small = []
-    for _space, region in views()[:count]:
-        split(region, "HORIZONTAL", 0.25)
-    yield
-    for space, region in views()[:count]:
-        space.show_region_header = space.show_region_toolbar = False
+        yield
+        split(views()[0][1], "HORIZONTAL", 0.8)
+        yield
+    for space, _region in views():
         space.shading.type = "SOLID"
-        small.append((space, region))
+        space.show_region_header = space.show_region_toolbar = False
     yield
-    return small
+    return views()[:count]
 
 
 def viewport(region):
@@ -121,14 +118,23 @@ def is_final(region):
     if behind is None or behind.solver is None or behind.picture is None:
         return False
     solver, view = behind.solver.state(), behind.view.state()
-    return (not solver["busy"] and not view["busy"] and behind.picture.quality == "FINAL"
+    return (not solver["working"] and not view["making"] and behind.picture.quality == "FINAL"
             and behind.picture.solution == solver["solutions"])
 
 
 def final(*regions):
     """Steps until all of the regions show their final pictures."""
     for region in regions:
-        yield from windowed.until(described(is_final, region), SECONDS)
+        yield from windowed.until(described(is_final, region), SECONDS,
+                                  tell=lambda region=region: situation(region))
+
+
+def situation(region):
+    behind = viewport(region)
+    if behind is None or behind.solver is None:
+        return f"viewport: {behind and behind.status}"
+    state = {**solver_state(region), "report": "..."}
+    return f"{state}, {behind.view.state()}, picture: {behind.picture and vars(behind.picture)}"
 
 
 def updated(region, edit):

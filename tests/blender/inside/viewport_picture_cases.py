@@ -21,15 +21,18 @@ import windowed  # noqa: E402
 FOLDER = pathlib.Path(recorder.arguments()[0])
 SCENE = pathlib.Path(__file__).resolve().parents[3] / "blend_scenes" / "cornell_box.blend"
 
-# view_camera_zoom at which the camera's frame is as large as the region, by Blender's
-# (zoom / 50 + sqrt 2)^2 / 4.
-FRAME_FILLS_REGION = 50.0 * (2.0 - math.sqrt(2.0))
+
+def camera_zoom(share):
+    """view_camera_zoom at which a frame of the region's shape has this share of its width."""
+    return 50.0 * (2.0 * math.sqrt(share) - math.sqrt(2.0))
 
 
 def open_scene():
     """Steps to the scene in a small view through its camera, whose frame fills the region."""
     bpy.ops.wm.open_mainfile(filepath=str(SCENE), load_ui=False)
+    yield
     scene = bpy.context.scene
+    scene.render.engine = "ANTIRADIANCE"
     scene.antiradiance.link_threshold = 0.1
     [(space, region)] = yield from live_view.small_views()
     render = scene.render
@@ -37,8 +40,8 @@ def open_scene():
     render.resolution_percentage = 100
     view = space.region_3d
     view.view_perspective = "CAMERA"
-    view.view_camera_zoom, view.view_camera_offset = FRAME_FILLS_REGION, (0, 0)
-    space.overlay.show_overlays = False
+    view.view_camera_zoom, view.view_camera_offset = camera_zoom(1.0), (0, 0)
+    space.overlay.show_overlays = space.use_render_border = False
     return scene, space, region
 
 
@@ -58,11 +61,13 @@ def rendered(scene, name):
 
 
 def shown(space, region):
+    """Steps to the pixels of the region, and the border of the picture in it."""
     space.shading.type = "RENDERED"
     yield from live_view.final(region)
-    pixels = live_view.seen(region).pixels
+    result = live_view.seen(region).pixels, live_view.viewport(region).picture.border
     space.shading.type = "SOLID"
-    return pixels
+    yield
+    return result
 
 
 def compared(name, viewport, render, border=None):
@@ -74,21 +79,23 @@ def compared(name, viewport, render, border=None):
 
 def through_the_camera():
     scene, space, region = yield from open_scene()
-    pixels = yield from shown(space, region)
+    pixels, _ = yield from shown(space, region)
     return compared("camera", pixels, rendered(scene, "camera"))
 
 
 def border_of_the_camera():
-    """The frame is half as large as the region and off its middle; its border is a part of it."""
+    """The frame is half as large as the region, amidst of it; its border is a part of that."""
     scene, space, region = yield from open_scene()
     render, view = scene.render, space.region_3d
-    render.resolution_x, render.resolution_y = region.width // 2, region.height // 2
-    view.view_camera_zoom = 50.0 * (math.sqrt(2.0) - math.sqrt(2.0))
+    # As many pixels to the left of the frame as to its right, and so on.
+    width, height = (size // 2 + size // 2 % 2 + size % 2 for size in (region.width, region.height))
+    render.resolution_x, render.resolution_y = width, height
+    view.view_camera_zoom = camera_zoom(width / region.width)
     render.use_border = render.use_crop_to_border = True
-    render.border_min_x, render.border_max_x = 0.25, 0.75
-    render.border_min_y, render.border_max_y = 0.5, 1.0
-    pixels = yield from shown(space, region)
-    border = live_view.drawn_border(region)
+    # The middle of a pixel's edge would be anyone's choice.
+    render.border_min_x, render.border_max_x = (width // 4 + 0.1) / width, 1.0
+    render.border_min_y, render.border_max_y = 0.0, (height // 2 + 0.1) / height
+    pixels, border = yield from shown(space, region)
     return compared("border", pixels, rendered(scene, "border"), border)
 
 
@@ -98,22 +105,24 @@ def border_of_the_region():
     with live_view.in_view(region):
         bpy.ops.view3d.view_camera()
     yield
-    whole = yield from shown(space, region)
+    whole, _ = yield from shown(space, region)
     space.use_render_border = True
     space.render_border_min_x, space.render_border_max_x = 0.25, 0.75
     space.render_border_min_y, space.render_border_max_y = 0.4, 0.8
-    pixels = yield from shown(space, region)
-    return compared("region_border", pixels, whole, live_view.drawn_border(region))
+    pixels, border = yield from shown(space, region)
+    x0, y0, x1, y1 = border
+    return compared("region_border", pixels, whole[y0:y1, x0:x1], border)
 
 
 def orthographic():
-    """A viewport from above, and an orthographic camera that sees the same."""
+    """A viewport that looks into the box, and an orthographic camera that sees the same."""
     scene, space, region = yield from open_scene()
     view = space.region_3d
     view.view_perspective = "ORTHO"
-    view.view_distance *= 0.5
+    view.view_rotation = scene.camera.matrix_world.to_quaternion()
+    view.view_location, view.view_distance = (0.28, 0.28, 0.28), 2.0  # m: the box's middle
     yield
-    pixels = yield from shown(space, region)
+    pixels, _ = yield from shown(space, region)
     projection, to_world = np.array(view.window_matrix), view.view_matrix.inverted()
     camera = scene.camera
     camera.data.type, camera.data.sensor_fit = "ORTHO", "AUTO"
@@ -132,7 +141,7 @@ def transparent_film():
     scene.render.film_transparent = True
     camera = scene.camera
     camera.data.lens *= 0.5
-    pixels = yield from shown(space, region)
+    pixels, _ = yield from shown(space, region)
     return compared("transparent", pixels, rendered(scene, "transparent"))
 
 

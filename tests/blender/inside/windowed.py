@@ -45,12 +45,13 @@ def _after_drawing():
     _drawn["times"] += 1
 
 
-def until(condition, seconds=60.0):
-    """Steps until `condition()` holds. Its docstring tells what did not come about."""
+def until(condition, seconds=60.0, tell=lambda: ""):
+    """Steps until `condition()` holds. Its docstring tells what did not come about; tell(): and how
+    things are instead."""
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
-            raise TimeoutError(f"after {seconds} s: {condition.__doc__ or condition}")
+            raise TimeoutError(f"not in {seconds} s: {condition.__doc__ or condition} {tell()}")
         yield
 
 
