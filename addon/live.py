@@ -28,12 +28,13 @@ class SolverPool:
 
     def keep_only(self, keys):
         for key in self._solvers.keys() - keys:
-            del self._solvers[key]  # which ends its thread
+            self._solvers.pop(key).stop()
 
 
 _solvers = SolverPool()
 _images = ImageCache()
 _viewports: dict[int, Viewport] = {}  # pointer of the region ->
+_listed = set()  # warnings, as panels have been told
 
 
 def viewport_of(region) -> Viewport:
@@ -48,6 +49,13 @@ def viewport_of(region) -> Viewport:
 
 def viewport_at(region) -> Viewport | None:
     return _viewports.get(region.as_pointer())
+
+
+def statuses_of(scene, view_layer) -> list:
+    """The Status of each viewport that shows the view layer."""
+    shown = scene.name_full, view_layer.name
+    return [viewport.status for viewport in _viewports.values()
+            if viewport.solver_key is not None and viewport.solver_key[:2] == shown]
 
 
 def rendered_regions():
@@ -71,7 +79,21 @@ def _tick():
     for scene in {scene for scene, _region in regions.values()}:
         _note_settings(scene, [_viewports[key] for key, (shown, _) in regions.items()
                                if shown == scene and key in _viewports])
+    _redraw_panels()
     return INTERVAL if _viewports else None
+
+
+def _redraw_panels():
+    """Those that list what viewports warn of, when that has changed."""
+    global _listed
+    warnings = {viewport.status.warnings for viewport in _viewports.values()}
+    if warnings == _listed:
+        return
+    _listed = warnings
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "PROPERTIES":
+                area.tag_redraw()
 
 
 def _note_settings(scene, viewports):

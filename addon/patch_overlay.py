@@ -18,7 +18,6 @@ LINE_WIDTH = 1.5   # px at Blender's own scale, as all lengths below
 MARKS = ((4.0, (0.0, 0.0, 0.0, 0.8)), (2.0, (1.0, 1.0, 1.0, 1.0)))  # (width, colour), below first
 RING = 8.0         # radius, about the centre of the patch: it may be too small to see
 RING_CORNERS = 24
-LIFT = 2e-5        # of marks towards the eye, of the depth from -1 to 1
 
 _handlers = []
 
@@ -66,8 +65,9 @@ def draw_links():
         for test, share in (("GREATER", BEHIND), ("LESS_EQUAL", 1.0)):
             gpu.state.depth_test_set(test)
             draw_lines(*lines_of(patch, settings), share, LINE_WIDTH * scale)
-            for closed in (patch["corners"], ring_about(patch["center"], context, RING * scale)):
-                draw_mark(closed, share, scale)
+        gpu.state.depth_test_set("NONE")
+        draw_outline(patch["corners"], scale)
+        draw_outline(ring_about(patch["center"], context, RING * scale), scale)
     finally:
         gpu.state.blend_set(blend)
         gpu.state.depth_test_set(depth_test)
@@ -90,17 +90,13 @@ def ring_about(center, context, radius):
     return center + length * np.stack([np.cos(angles), np.sin(angles)], axis=1) @ across
 
 
-def draw_mark(corners, share, scale):
+def draw_outline(corners, scale):
     """A closed line, white on black."""
-    corners = np.concatenate([corners, corners[:1]]).astype(np.float32)
-    lifted = gpu.matrix.get_projection_matrix()
-    lifted[2] -= LIFT * lifted[3]
-    with gpu.matrix.push_pop_projection():
-        gpu.matrix.load_projection_matrix(lifted)
-        for width, (*rgb, alpha) in MARKS:
-            shader = polyline_shader("POLYLINE_UNIFORM_COLOR", width * scale)
-            shader.uniform_float("color", (*rgb, alpha * share))
-            batch_for_shader(shader, "LINE_STRIP", {"pos": corners}).draw(shader)
+    ends = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1).reshape(-1, 3)
+    for width, colour in MARKS:
+        shader = polyline_shader("POLYLINE_UNIFORM_COLOR", width * scale)
+        shader.uniform_float("color", colour)
+        batch_for_shader(shader, "LINES", {"pos": ends.astype(np.float32)}).draw(shader)
 
 
 def polyline_shader(name, width):

@@ -8,9 +8,9 @@ import bpy
 MODULES = ("compat", "core", "colour", "nodes", "images", "materials", "lamps", "camera", "world",
            "blockers", "sync", "render_log", "sessions", "properties", "presets", "ui", "failures",
            "view_camera", "view_picture", "viewport_status", "inspection", "viewport",
-           "viewport_pause", "live", "viewport_message", "engine", "difference", "walls",
-           "blocker_operators", "blocker_evaluation", "blocker_panel", "blocker_overlay", "planar",
-           "wall_junctions", "wall_planes", "propose_blockers", "patch_links", "swatches",
+           "viewport_pause", "live", "viewport_message", "viewport_panel", "engine", "difference",
+           "walls", "blocker_operators", "blocker_evaluation", "blocker_panel", "blocker_overlay",
+           "planar", "wall_junctions", "wall_planes", "propose_blockers", "patch_links", "swatches",
            "pick_patch", "patch_overlay", "inspection_panel")
 
 for _name in MODULES:  # in this order also when Blender reloads its scripts
@@ -43,6 +43,7 @@ from . import (  # noqa: E402
     swatches,
     ui,
     viewport_message,
+    viewport_panel,
     viewport_pause,
 )
 
@@ -51,7 +52,7 @@ _registered = []  # classes, in the order of registering
 
 CLASSES_WITH_CORE = (*presets.CLASSES, *ui.CLASSES, *difference.CLASSES, *blocker_operators.CLASSES,
                      *blocker_evaluation.CLASSES, *propose_blockers.CLASSES, *blocker_panel.CLASSES,
-                     *pick_patch.CLASSES, *inspection_panel.CLASSES)
+                     *viewport_panel.CLASSES, *pick_patch.CLASSES, *inspection_panel.CLASSES)
 
 
 def register():

@@ -87,7 +87,8 @@ class Viewport:
             return visible
 
         self._images.forget_edited(depsgraph.updates)
-        SceneWriter(scene, scene.add_warning, self._images.read_pixels).write(depsgraph, shows=shows)
+        writer = SceneWriter(scene, scene.add_warning, self._images.read_pixels)
+        writer.write(depsgraph, shows=shows)
         # One that shows less than the view layer does has a solution of its own.
         self._use_solver((context.scene.name_full, depsgraph.view_layer.name,
                           self.key if hidden else None))

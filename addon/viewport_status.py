@@ -12,6 +12,7 @@ QUALITIES = {"NAVIGATION": "navigation", "QUICK": "quick", "INTERLEAVED": "inter
 class Status:
     line: str = ""
     error: str = ""  # why there is no newer picture, "" if there is no reason
+    warnings: tuple[str, ...] = ()  # what could not be honoured
 
 
 def status_of(solver: dict, view: dict, shown: str) -> Status:
@@ -24,7 +25,7 @@ def status_of(solver: dict, view: dict, shown: str) -> Status:
         "" if error else quality(view["making"], shown),
         counted(len(solver["warnings"]), "warning"),
     ]
-    return Status(" · ".join(part for part in parts if part), error)
+    return Status(" · ".join(part for part in parts if part), error, tuple(solver["warnings"]))
 
 
 def progress(solver: dict) -> str:

@@ -27,7 +27,7 @@ py::dict state_of_solver(const LiveSolver& solver) {
     return py::dict("working"_a = state.working, "paused"_a = state.paused, "stage"_a = state.stage,
                     "fraction"_a = state.fraction, "error"_a = state.error, "edits"_a = state.edits,
                     "solutions"_a = newest ? newest->number : 0,
-                    "coarse"_a = newest && newest->coarse,
+                    "preliminary"_a = newest && newest->preliminary,
                     "report"_a = newest ? newest->report.to_json() : std::string(),
                     "warnings"_a = newest ? newest->report.warnings : std::vector<std::string>());
 }
@@ -76,12 +76,12 @@ void bind_live(py::module_& module) {
         .def("solution", &solution_of, "The newest SolvedScene, or None")
         .def("stop", &LiveSolver::stop, py::call_guard<py::gil_scoped_release>(),
              "Cancels the work and waits for its end; edits are then left alone")
-        .def(
-            "state", &state_of_solver,
-            "A dict: working, there are edits without their whole solution; paused; stage and "
-            "fraction, 0..1, of the running work; error, why the newest edit has no solution, or "
-            "empty; edits, posts so far that changed something; solutions, made so far; and of "
-            "the newest solution coarse, a whole one follows; report, JSON; warnings, list of str");
+        .def("state", &state_of_solver,
+             "A dict: working, there are edits without their whole solution; paused; stage and "
+             "fraction, 0..1, of the running work; error, why the newest edit has no solution, or "
+             "empty; edits, posts so far that changed something; solutions, made so far; and of "
+             "the newest solution preliminary, the whole one follows; report, JSON; warnings, list "
+             "of str");
     py::class_<LiveView> view(module, "LiveView",
                               "Keeps the picture of one viewport up to date, on a thread of its "
                               "own: quick ones while its camera moves, better ones when it rests");

@@ -125,7 +125,7 @@ void LiveSolver::solve(const Edit& edit, Progress& progress) {
     StageInput input = *edit.input;
     progress.begin_stage("Checking the scene", 0, 0.02F);
     const std::vector<std::string> warnings = check_scene(input.scene);
-    if (whole_.expected_seconds(input) > kSoon) {
+    if (whole_.expected_seconds(input) > kSoon && !solve_relit(input, edit, warnings, progress)) {
         StageInput coarse = input;
         coarse.coarseness = kCoarseness;
         solve_with(coarse_, std::move(coarse), edit, warnings, progress);
@@ -133,20 +133,37 @@ void LiveSolver::solve(const Edit& edit, Progress& progress) {
     solve_with(whole_, std::move(input), edit, warnings, progress);
 }
 
+bool LiveSolver::solve_relit(const StageInput& input, const Edit& edit,
+                             const std::vector<std::string>& warnings, Progress& progress) {
+    Stopwatch watch;
+    Report report = report_of(edit, warnings);
+    std::optional<SolvedScene> relit = whole_.run_relit(input, progress, report);
+    if (relit) publish(std::move(*relit), std::move(report), watch.lap(), true);
+    return relit.has_value();
+}
+
 void LiveSolver::solve_with(Stages& stages, StageInput input, const Edit& edit,
                             const std::vector<std::string>& warnings, Progress& progress) {
     Stopwatch watch;
-    auto solution = std::make_shared<Solution>();
-    solution->coarse = input.coarseness > 1;
-    Report& report = solution->report;
+    const bool preliminary = input.coarseness > 1;
+    Report report = report_of(edit, warnings);
+    SolvedScene solved = stages.run(std::move(input), progress, report);
+    publish(std::move(solved), std::move(report), watch.lap(), preliminary);
+}
+
+Report LiveSolver::report_of(const Edit& edit, const std::vector<std::string>& warnings) {
+    Report report;
     report.warnings = warnings;
     report.timings_s.sync = edit.sync_seconds;
-    solution->scene = stages.run(std::move(input), progress, report);
-    report.timings_s.total = edit.sync_seconds + watch.lap();
+    return report;
+}
+
+void LiveSolver::publish(SolvedScene solved, Report report, double seconds, bool preliminary) {
+    report.timings_s.total = report.timings_s.sync + seconds;
     {
         const std::scoped_lock lock(mutex_);
-        solution->number = newest_ ? newest_->number + 1 : 1;
-        newest_ = std::move(solution);
+        newest_ = std::make_shared<const Solution>(Solution{
+            newest_ ? newest_->number + 1 : 1, preliminary, std::move(solved), std::move(report)});
         state_.error.clear();
     }
     bell_.ring();

@@ -27,7 +27,9 @@ class LiveSolver {
 public:
     struct Solution {
         std::uint64_t number = 0;  // 1, 2, ...
-        bool coarse = false;       // the whole one follows
+        // The whole one follows: this one is of coarser patches, or of direct light that was scaled
+        // with its lights.
+        bool preliminary = false;
         SolvedScene scene;
         Report report;
     };
@@ -74,6 +76,11 @@ private:
     void solve(const Edit& edit, Progress& progress);
     void solve_with(Stages& stages, StageInput input, const Edit& edit,
                     const std::vector<std::string>& warnings, Progress& progress);
+    // False: the edit changed more than the strength of lights.
+    bool solve_relit(const StageInput& input, const Edit& edit,
+                     const std::vector<std::string>& warnings, Progress& progress);
+    static Report report_of(const Edit& edit, const std::vector<std::string>& warnings);
+    void publish(SolvedScene solved, Report report, double seconds, bool preliminary);
     void finish(const std::string& error);
 
     PauseGate gate_;

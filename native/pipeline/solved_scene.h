@@ -28,6 +28,7 @@ struct SolvedScene {
     std::shared_ptr<const PruneResult> pruned;  // null: all of the model's links take part
     std::shared_ptr<const DirectLight> direct;  // borrows the model's rays
     std::shared_ptr<const std::vector<vec3>> leaf_direct;  // #nodes, W/m2 of it on each leaf
+    std::shared_ptr<const LightShares> light_shares;       // of leaf_direct
     std::shared_ptr<const TransportInput> transport;
     std::shared_ptr<const LinkSet> lit_links;      // null: no dark links were removed
     std::shared_ptr<const MixedVisibility> mixed;  // null: the visibility is not MIXED

@@ -21,11 +21,10 @@ auto place(const Lamp& lamp) {
     return std::tuple(shines, lamp.type, lamp.to_world, lamp.spot_angle, lamp.shape, lamp.size);
 }
 
-// All that shadow rays need to know of a lamp.
+// All that shadow rays need to know of a lamp beside its power.
 auto light(const Lamp& lamp) {
-    return std::tuple(lamp.type, lamp.to_world, lamp.power, lamp.radius, lamp.spot_angle,
-                      lamp.spot_blend, lamp.spot_cosine, lamp.sun_angle, lamp.shape, lamp.size,
-                      lamp.spread);
+    return std::tuple(lamp.type, lamp.to_world, lamp.radius, lamp.spot_angle, lamp.spot_blend,
+                      lamp.spot_cosine, lamp.sun_angle, lamp.shape, lamp.size, lamp.spread);
 }
 
 template <typename Element, typename Read>
@@ -40,17 +39,23 @@ bool same_texture(const Scene& was, int was_index, const Scene& is, int is_index
     return a.width == b.width && a.height == b.height && a.pixels == b.pixels;
 }
 
-// Of all materials: a constant, and the texture on it. The stages before have compared which
-// triangle has which material.
-bool same_colours(const Scene& was, const Scene& is, vec3 Material::*constant,
-                  int Material::*texture) {
-    const auto same_colour = [&](const Material& a, const Material& b) {
-        return a.*constant == b.*constant && same_texture(was, a.*texture, is, b.*texture);
+// Of all materials, with the coordinates. The stages before have compared which triangle has which
+// material.
+bool same_textures(const Scene& was, const Scene& is, int Material::*texture) {
+    const auto same_one = [&](const Material& a, const Material& b) {
+        return same_texture(was, a.*texture, is, b.*texture);
     };
-    if (!std::ranges::equal(was.materials, is.materials, same_colour)) return false;
+    if (!std::ranges::equal(was.materials, is.materials, same_one)) return false;
     const bool has_texture = std::ranges::any_of(
         is.materials, [&](const Material& material) { return material.*texture != kNone; });
     return !has_texture || was.uv == is.uv;
+}
+
+// Of all materials: a constant, and the texture on it.
+bool same_colours(const Scene& was, const Scene& is, vec3 Material::*constant,
+                  int Material::*texture) {
+    return std::ranges::equal(was.materials, is.materials, {}, constant, constant) &&
+           same_textures(was, is, texture);
 }
 
 bool same_emission(const Scene& was, const Scene& is) {
@@ -91,6 +96,16 @@ bool same_pruning_input(const StageInput& was, const StageInput& is) {
 bool same_direct_light_input(const StageInput& was, const StageInput& is) {
     // What IMPLICIT takes from shadow rays: emissive meshes and area lamps.
     const bool all = is.options.direct_light != DirectLightMode::kImplicit;
+    const auto same_power = [all](const Lamp& a, const Lamp& b) {
+        return (!all && b.type == LampType::kArea) || a.power == b.power;
+    };
+    return same_but_strength_of_lights(was, is) &&
+           std::ranges::equal(was.scene.lamps, is.scene.lamps, same_power) &&
+           (!all || same_emission(was.scene, is.scene));
+}
+
+bool same_but_strength_of_lights(const StageInput& was, const StageInput& is) {
+    const bool all = is.options.direct_light != DirectLightMode::kImplicit;
     const auto same_light = [all](const Lamp& a, const Lamp& b) {
         return (!all && b.type == LampType::kArea) || light(a) == light(b);
     };
@@ -99,7 +114,7 @@ bool same_direct_light_input(const StageInput& was, const StageInput& is) {
     return was.options.direct_light == is.options.direct_light &&
            (!maps || same_albedo(was.scene, is.scene)) &&
            std::ranges::equal(was.scene.lamps, is.scene.lamps, same_light) &&
-           (!all || same_emission(was.scene, is.scene));
+           (!all || same_textures(was.scene, is.scene, &Material::emission_texture));
 }
 
 bool same_transport_input(const StageInput& was, const StageInput& is) {

@@ -26,6 +26,8 @@ struct StageInput {
 [[nodiscard]] bool same_model_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_pruning_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_direct_light_input(const StageInput& was, const StageInput& is);
+// Whether direct light differs by the strength and colour of lights alone, at most.
+[[nodiscard]] bool same_but_strength_of_lights(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_transport_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_solve_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_evaluation_input(const StageInput& was, const StageInput& is);

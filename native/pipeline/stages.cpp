@@ -11,6 +11,7 @@
 
 #include "base/stopwatch.h"
 #include "pipeline/choose_solver.h"
+#include "pipeline/relight.h"
 #include "prune/dark_links.h"
 
 namespace antiradiance {
@@ -89,8 +90,10 @@ void run_direct_light(const StageInput& input, SolvedScene& solved, Report::Timi
     progress.begin_stage("Direct light", 0.45F, 0.6F);
     solved.direct = std::make_shared<DirectLight>(input.scene, solved.model->rays,
                                                   input.options.direct_light, progress);
+    const auto shares = std::make_shared<LightShares>();
     solved.leaf_direct = std::make_shared<std::vector<vec3>>(
-        solved.direct->leaf_irradiance(solved.model->tree, progress));
+        solved.direct->leaf_irradiance(solved.model->tree, progress, shares.get()));
+    solved.light_shares = shares;
     timings.direct = watch.lap();
 }
 
@@ -102,6 +105,7 @@ void describe_direct_light(const StageInput&, const SolvedScene& solved, Report&
 void forget_direct_light(SolvedScene& solved) {
     solved.direct.reset();
     solved.leaf_direct.reset();
+    solved.light_shares.reset();
 }
 
 // What the solver is given: light and reflectance of the leaves, and the links that the light
@@ -266,6 +270,27 @@ SolvedScene Stages::run(StageInput input, Progress& progress, Report& report) {
         kStages[i].describe(*solved_.input, solved_, report);
     }
     return solved_;
+}
+
+std::optional<SolvedScene> Stages::run_relit(StageInput input, Progress& progress,
+                                             Report& report) const {
+    constexpr std::size_t kFirst = 3;  // the stage after direct light
+    static_assert(kStages[kFirst - 1].name == "direct_light");
+    if (done_ < kFirst) return std::nullopt;
+    std::optional<std::vector<vec3>> direct = relight(solved_, input);
+    if (!direct) return std::nullopt;
+    SolvedScene relit = solved_;
+    relit.input = std::make_shared<const StageInput>(std::move(input));
+    relit.leaf_direct = std::make_shared<std::vector<vec3>>(std::move(*direct));
+    for (std::size_t i = 0; i < kStages.size(); ++i) {
+        report.stages.push_back({std::string(kStages[i].name), i < kFirst ? "kept" : "run"});
+        if (i >= kFirst) {
+            kStages[i].forget(relit);
+            kStages[i].run(*relit.input, relit, report.timings_s, progress);
+        }
+        kStages[i].describe(*relit.input, relit, report);
+    }
+    return relit;
 }
 
 }  // namespace antiradiance

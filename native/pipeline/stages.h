@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "base/progress.h"
 #include "pipeline/report.h"
@@ -27,6 +28,13 @@ public:
     // Writes each stage's figures, warnings and whether it ran into `report`, as far as it gets.
     // Throws what the stages throw; those that were done by then are kept.
     SolvedScene run(StageInput input, Progress& progress, Report& report);
+
+    // What run() would return, but with direct light that follows from the last run's (relight()):
+    // the strength of lights alone has changed, and no shadow ray is traced. None: more has
+    // changed. Keeps nothing. Pictures of it are right where pixels have the direct light of
+    // leaves.
+    [[nodiscard]] std::optional<SolvedScene> run_relit(StageInput input, Progress& progress,
+                                                       Report& report) const;
 
     // How long run() is going to take: the stages that it has to run took this long when they last
     // ran. s; infinity where one never ran to its end.

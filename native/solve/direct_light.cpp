@@ -36,17 +36,24 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, DirectLightMo
     : impl_(std::make_unique<Impl>(Impl{rays})) {
     const float epsilon = rays.epsilon();
     std::vector<EmitterPtr>& emitters = impl_->emitters;
-    for (const Lamp& lamp : scene.lamps) {
+    const auto add = [&](EmitterPtr emitter, const LightSource& source) {
+        std::vector<LightSource>& lights = impl_->lights;
+        const auto known = std::ranges::find(lights, source);
+        impl_->light_of.push_back(static_cast<std::int32_t>(known - lights.begin()));
+        if (known == lights.end()) lights.push_back(source);
+        emitters.push_back(std::move(emitter));
+    };
+    for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
+        const Lamp& lamp = scene.lamps[i];
         if (mode == DirectLightMode::kImplicit && lamp.type == LampType::kArea) continue;
-        if (EmitterPtr emitter = make_lamp_emitter(lamp, epsilon)) {
-            emitters.push_back(std::move(emitter));
-        }
+        if (EmitterPtr emitter = make_lamp_emitter(lamp, epsilon))
+            add(std::move(emitter), {.lamp = static_cast<std::int32_t>(i)});
     }
     MeshEmitters mesh;
     if (mode != DirectLightMode::kImplicit) mesh = make_mesh_emitters(scene, epsilon);
     const std::size_t mesh_count = mesh.emitters.size();
-    for (EmitterPtr& emitter : mesh.emitters)
-        emitters.push_back(std::move(emitter));
+    for (std::size_t i = 0; i < mesh_count; ++i)
+        add(std::move(mesh.emitters[i]), {.material = mesh.material[i]});
     std::vector<EmitterBounds> bounds;
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const auto index = static_cast<std::int32_t>(i);

@@ -47,6 +47,23 @@ struct DirectSampling {
     static constexpr int kMostFactor = 16;
 };
 
+// A lamp, or a material that emits.
+struct LightSource {
+    std::int32_t lamp = kNone;      // into Scene::lamps
+    std::int32_t material = kNone;  // into Scene::materials
+
+    bool operator==(const LightSource&) const = default;
+};
+
+// How much of the leaves' direct light comes from where.
+struct LightShares {
+    std::vector<LightSource> lights;
+    std::vector<std::vector<vec3>> irradiance;  // W/m2  // #lights x #nodes; 0 at inner nodes
+
+    // Of more lights than this no shares are kept: their memory grows with each.
+    static constexpr std::size_t kMostLights = 32;
+};
+
 class DirectLight {
 public:
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links. kShadowMaps
@@ -78,8 +95,9 @@ public:
     [[nodiscard]] Maps maps() const;  // none in the other modes
 
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes
-    [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree,
-                                                    Progress& progress) const;
+    // shares: its parts, unless it is null; without lights where there are none, too many or maps.
+    [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree, Progress& progress,
+                                                    LightShares* shares = nullptr) const;
 
     struct Impl;  // direct_light_estimate.h
 

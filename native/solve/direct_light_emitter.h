@@ -29,7 +29,8 @@ struct LightSample {
     vec3 target{0};      // m, on the emitter; unused for a sun
     // Unbiased estimate of unshadowed(): this sample's share of it over its probability density.
     float weight = 0;
-    vec3 radiance{0};  // in the unit that multiplies unshadowed()
+    vec3 radiance{0};            // in the unit that multiplies unshadowed()
+    std::int32_t light = kNone;  // set by who has samples of several lights: DirectLight::Impl's
 };
 
 // A point of an emitter that a shadow map looks from, fixed for all receivers.
@@ -92,6 +93,7 @@ using EmitterPtr = std::unique_ptr<Emitter>;
 // All emissive polygons. Textured ones are cut until a piece is of nearly one colour.
 struct MeshEmitters {
     std::vector<EmitterPtr> emitters;
+    std::vector<std::int32_t> material;  // of the scene  // #emitters
     // Into emitters: the one that has the whole triangle; kNone: dark or cut into pieces.
     // #triangles
     std::vector<std::int32_t> of_triangle;

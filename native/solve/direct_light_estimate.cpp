@@ -51,6 +51,7 @@ IrradianceEstimate::IrradianceEstimate(const DirectLight::Impl& light,
         add_sum(emitter);
     if (light.in_tree.empty()) return;
     chosen_active_ = true;
+    chosen_.assign(light.lights.size(), vec3(0));
     light.tree.choose(receivers_, kChoices, 0.5F, choices_);
     for (const EmitterChoice& choice : choices_) {
         if (choice.probability * kChoices < kOwnRays) continue;
@@ -127,31 +128,40 @@ void IrradianceEstimate::sample_choices(std::span<const SurfacePoint> points, st
             const float share = share_of_choice(point, s.direction, choice.probability,
                                                 emitter.density(point, s.direction));
             s.weight *= share / static_cast<float>(choice.probability);
+            s.light = light_.light_of[static_cast<std::size_t>(index)];
             batch_.add(point, s);
         }
     }
     batch_.trace();
-    for (const LightSample& s : batch_.samples())
+    for (const LightSample& s : batch_.samples()) {
         samples.add(s.weight * s.radiance);
+        add_chosen_sample(s.light, s.weight * s.radiance, kChoices);
+    }
+}
+
+void IrradianceEstimate::add_chosen_sample(std::int32_t light, const vec3& irradiance,
+                                           std::uint32_t count) {
+    chosen_[static_cast<std::size_t>(light)] += irradiance / static_cast<float>(count);
 }
 
 // The light of the tree's emitters along a direction, pi L W/m2, by the share that the hemisphere's
 // samples count of it.
-vec3 IrradianceEstimate::arriving_from(const SurfacePoint& point, const vec3& direction) const {
-    if (glm::dot(direction, point.normal) <= 0) return vec3(0);
+IrradianceEstimate::Arriving IrradianceEstimate::arriving_from(const SurfacePoint& point,
+                                                               const vec3& direction) const {
+    if (glm::dot(direction, point.normal) <= 0) return {};
     const vec3 origin = point.position + point.normal * light_.rays.epsilon();
     const RayHit hit = light_.rays.intersect(origin, direction);
-    if (!hit.hit()) return vec3(0);
+    if (!hit.hit()) return {};
     const std::int32_t in_tree = light_.of_triangle[static_cast<std::size_t>(hit.triangle)];
-    if (in_tree == kNone) return vec3(0);
+    if (in_tree == kNone) return {};
     const double probability = light_.tree.probability(receivers_, in_tree);
-    if (probability * kChoices >= kOwnRays) return vec3(0);  // it has its own rays
-    const auto index = light_.in_tree[static_cast<std::size_t>(in_tree)];
-    const Emitter& emitter = *light_.emitters[static_cast<std::size_t>(index)];
+    if (probability * kChoices >= kOwnRays) return {};  // it has its own rays
+    const auto index = static_cast<std::size_t>(light_.in_tree[static_cast<std::size_t>(in_tree)]);
+    const Emitter& emitter = *light_.emitters[index];
     const float density = emitter.density(point, direction);
-    if (density <= 0) return vec3(0);
+    if (density <= 0) return {};
     const float share = 1 - share_of_choice(point, direction, probability, density);
-    return share * kPi * emitter.sample(point, vec2(0.5F)).radiance;
+    return {light_.light_of[index], share * kPi * emitter.sample(point, vec2(0.5F)).radiance};
 }
 
 void IrradianceEstimate::sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,
@@ -161,8 +171,11 @@ void IrradianceEstimate::sample_hemisphere(std::span<const SurfacePoint> points,
         const std::uint32_t number = pass * kHemisphereRays + i;
         const SurfacePoint& point = points[number % points.size()];
         const Frame frame(point.shading_normal);
-        samples.add(
-            arriving_from(point, frame.to_world(cosine_hemisphere(r2_sample(number, seed)))));
+        const Arriving arriving =
+            arriving_from(point, frame.to_world(cosine_hemisphere(r2_sample(number, seed))));
+        samples.add(arriving.irradiance);
+        if (arriving.light != kNone)
+            add_chosen_sample(arriving.light, arriving.irradiance, hemisphere_rays_);
     }
 }
 
@@ -172,12 +185,10 @@ void IrradianceEstimate::add_chosen(std::span<const SurfacePoint> points) {
     light_.tree.choose(receivers_, kChoices, offset, choices_);
     SampleSum by_choice;
     sample_choices(points, pass, by_choice);
-    chosen_ += by_choice.sum / static_cast<float>(kChoices);
     chosen_var_ += by_choice.variance(kChoices);
     if (hemisphere_rays_ == 0) return;
     SampleSum by_cosine;
     sample_hemisphere(points, pass, by_cosine);
-    chosen_ += by_cosine.sum / static_cast<float>(hemisphere_rays_);
     chosen_var_ += by_cosine.variance(hemisphere_rays_);
     // Each pass is unbiased by itself, whatever the last one decides for it.
     if (by_cosine.y <= 0) hemisphere_rays_ = 0;
@@ -254,8 +265,19 @@ vec3 IrradianceEstimate::mean() const {
     vec3 total(0);
     for (const Sum& sum : sums_)
         total += mean_of(sum);
-    if (chosen_passes_ > 0) total += chosen_ / static_cast<float>(chosen_passes_);
+    for (const vec3& of_light : chosen_)
+        total += of_light / static_cast<float>(std::max(chosen_passes_, 1U));
     return total;
+}
+
+void IrradianceEstimate::split(std::span<vec3> shares) const {
+    std::ranges::fill(shares, vec3(0));
+    for (const Sum& sum : sums_) {
+        const std::int32_t light = light_.light_of[static_cast<std::size_t>(sum.emitter)];
+        shares[static_cast<std::size_t>(light)] += mean_of(sum);
+    }
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+        shares[i] += chosen_[i] / static_cast<float>(std::max(chosen_passes_, 1U));
 }
 
 }  // namespace antiradiance

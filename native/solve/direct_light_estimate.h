@@ -46,8 +46,10 @@ class MappedLight;
 struct DirectLight::Impl {
     const RayScene& rays;
     std::vector<EmitterPtr> emitters{};
-    std::vector<std::int32_t> always{};   // into emitters: each gets its own rays
-    std::vector<std::int32_t> in_tree{};  // into emitters: the tree's indices
+    std::vector<LightSource> lights{};
+    std::vector<std::int32_t> light_of{};  // into lights  // #emitters
+    std::vector<std::int32_t> always{};    // into emitters: each gets its own rays
+    std::vector<std::int32_t> in_tree{};   // into emitters: the tree's indices
     EmitterTree tree{};
     // The tree's emitter that has the whole triangle, or kNone.  // #triangles; none without tree
     std::vector<std::int32_t> of_triangle{};
@@ -71,6 +73,8 @@ public:
     bool refine(float allowed, int shadow_rays);
 
     [[nodiscard]] vec3 mean() const;  // W/m2
+    // The part of each light in it: sets shares[light], of as many as DirectLight::Impl has.
+    void split(std::span<vec3> shares) const;
 
 private:
     struct Sum {
@@ -111,7 +115,13 @@ private:
                         SampleSum& samples);
     void sample_hemisphere(std::span<const SurfacePoint> points, std::uint32_t pass,
                            SampleSum& samples);
-    [[nodiscard]] vec3 arriving_from(const SurfacePoint& point, const vec3& direction) const;
+    struct Arriving {
+        std::int32_t light = kNone;  // kNone: nothing arrives
+        vec3 irradiance{0};          // W/m2
+    };
+    [[nodiscard]] Arriving arriving_from(const SurfacePoint& point, const vec3& direction) const;
+    // Of a sample of one of the tree's lights, W/m2, of `count` in its pass.
+    void add_chosen_sample(std::int32_t light, const vec3& irradiance, std::uint32_t count);
     [[nodiscard]] float share_of_choice(const SurfacePoint& point, const vec3& direction,
                                         double probability, float density) const;
     [[nodiscard]] static vec3 mean_of(const Sum& sum);
@@ -127,8 +137,8 @@ private:
     bool chosen_active_ = false;
     std::uint32_t hemisphere_rays_;  // of the next pass
     std::uint32_t chosen_passes_ = 0;
-    vec3 chosen_{0};         // sum over passes, W/m2
-    double chosen_var_ = 0;  // sum over passes of the variance of a pass's mean
+    std::vector<vec3> chosen_;  // sum over passes, W/m2  // #lights; empty without a tree
+    double chosen_var_ = 0;     // sum over passes of the variance of a pass's mean
     std::vector<EmitterChoice> choices_;
     SampleBatch batch_;  // of the emitter at hand
 };

@@ -39,8 +39,9 @@ void leaf_points(const PatchTree& tree, NodeId leaf, std::uint32_t pass,
     }
 }
 
+// shares: sets the part of each light, unless it is empty.
 vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId leaf,
-               std::vector<SurfacePoint>& points) {
+               std::vector<SurfacePoint>& points, std::span<vec3> shares) {
     leaf_points(tree, leaf, 0, points);
     if (points.empty()) return vec3(0);
     const std::uint32_t seed = hash_combine(0x51ed270bU, static_cast<std::uint32_t>(leaf));
@@ -54,6 +55,7 @@ vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId lea
         }
         if (!estimate.refine(kTolerance * luminance(estimate.mean()), kShadowRays)) break;
     }
+    if (!shares.empty()) estimate.split(shares);
     return estimate.mean();
 }
 
@@ -83,20 +85,31 @@ std::vector<vec3> mapped_leaves(const DirectLight& light, const PatchTree& tree,
 
 }  // namespace
 
-std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& progress) const {
+std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& progress,
+                                               LightShares* shares) const {
     std::vector<vec3> irradiance(tree.size(), vec3(0));
+    if (shares) *shares = {};
     if (!any()) return irradiance;
     if (has_maps()) return mapped_leaves(*this, tree, progress);
-    parallel_for_blocks(
-        tree.leaves.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-            std::vector<SurfacePoint> points;
-            for (std::size_t i = begin; i < end; ++i) {
-                progress.check();
-                const NodeId leaf = tree.leaves[i];
-                if (!can_be_lit(tree, leaf)) continue;
-                irradiance[static_cast<std::size_t>(leaf)] = leaf_mean(*impl_, tree, leaf, points);
-            }
-        });
+    const bool split = shares != nullptr && impl_->lights.size() <= LightShares::kMostLights;
+    if (split) {
+        shares->lights = impl_->lights;
+        shares->irradiance.assign(impl_->lights.size(), irradiance);
+    }
+    parallel_for_blocks(tree.leaves.size(), kBlock, progress,
+                        [&](std::size_t begin, std::size_t end) {
+                            std::vector<SurfacePoint> points;
+                            std::vector<vec3> parts(split ? impl_->lights.size() : 0);
+                            for (std::size_t i = begin; i < end; ++i) {
+                                progress.check();
+                                const NodeId leaf = tree.leaves[i];
+                                if (!can_be_lit(tree, leaf)) continue;
+                                const auto n = static_cast<std::size_t>(leaf);
+                                irradiance[n] = leaf_mean(*impl_, tree, leaf, points, parts);
+                                for (std::size_t light = 0; light < parts.size(); ++light)
+                                    shares->irradiance[light][n] = parts[light];
+                            }
+                        });
     return irradiance;
 }
 

@@ -95,14 +95,13 @@ public:
             of_triangle_[static_cast<std::size_t>(t)] = number;
             if (quad) {
                 of_triangle_[static_cast<std::size_t>(t + 1)] = number;
-                emitters_.push_back(
-                    std::make_unique<PolygonEmitter>(*quad, 4, material.emission, true, epsilon_));
+                add_emitter(t, *quad, 4, material.emission);
                 ++t;
             } else {
                 add_piece(t, {vec2(0, 0), vec2(1, 0), vec2(0, 1)}, material.emission);
             }
         }
-        return {std::move(emitters_), std::move(of_triangle_)};
+        return {std::move(emitters_), std::move(materials_), std::move(of_triangle_)};
     }
 
 private:
@@ -136,7 +135,14 @@ private:
             corners[i] =
                 c[0] * (1 - piece[i].x - piece[i].y) + c[1] * piece[i].x + c[2] * piece[i].y;
         }
-        emitters_.push_back(std::make_unique<PolygonEmitter>(corners, 3, radiance, true, epsilon_));
+        add_emitter(t, corners, 3, radiance);
+    }
+
+    void add_emitter(TriangleId t, const std::array<vec3, 4>& corners, std::size_t count,
+                     const vec3& radiance) {
+        emitters_.push_back(
+            std::make_unique<PolygonEmitter>(corners, count, radiance, true, epsilon_));
+        materials_.push_back(scene_.triangle_material[static_cast<std::size_t>(t)]);
     }
 
     void add_textured(TriangleId t) {
@@ -172,6 +178,7 @@ private:
     int depth_ = kDeepest;
     float allowed_ = 0;  // luminance, W/(m2 sr)
     std::vector<EmitterPtr> emitters_;
+    std::vector<std::int32_t> materials_;  // #emitters
     std::vector<std::int32_t> of_triangle_;
 };
 

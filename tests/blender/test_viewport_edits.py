@@ -3,21 +3,23 @@
 
 import pytest
 
-LIGHT = {"direct", "solve"}  # stages that see the light; those before them see where surfaces are
-
-
 @pytest.fixture(scope="module")
-def edits(in_window):
-    return in_window("viewport_edit_cases.py", timeout=600)
+def edits(in_window, tmp_path_factory):
+    return in_window("viewport_edit_cases.py", tmp_path_factory.mktemp("images"), timeout=600)
 
 
 @pytest.mark.parametrize("edit", ["lamp energy", "lamp colour", "material colour",
                                   "emission strength"])
 def test_links_outlive_edits_of_light(edits, edit):
     case = edits[edit]
-    assert case["edits"] == 1
-    run = {stage for stage, what in case["stages"].items() if what == "run"}
-    assert run and run <= LIGHT | {"display"}, case["stages"]
+    assert case["edits"] == 1 and case["solutions"] >= 1
+    assert case["stages"]["model"] == case["stages"]["pruning"] == "kept", "patches and links"
+    assert case["stages"]["solve"] == "run"
+
+
+def test_direct_light_outlives_edits_of_a_colour(edits):
+    assert edits["material colour"]["stages"]["direct_light"] == "kept"
+    assert edits["lamp energy"]["stages"]["direct_light"] == "run"
 
 
 @pytest.mark.parametrize("edit", ["object moved", "modifier changed", "object hidden",
@@ -25,7 +27,18 @@ def test_links_outlive_edits_of_light(edits, edit):
 def test_geometry_is_linked_anew(edits, edit):
     case = edits[edit]
     assert case["edits"] == 1 and case["solutions"] >= 1
-    assert case["stages"]["links"] == "run"
+    assert case["stages"]["model"] == "run"
+
+
+@pytest.mark.parametrize("edit", ["image generated", "colour space", "image painted",
+                                  "image loaded", "image loaded again"])
+def test_images_are_read_again_when_they_change(edits, edit):
+    assert edits[edit]["edits"] == 1 and edits[edit]["images read"] >= 1
+
+
+@pytest.mark.parametrize("edit", ["lamp energy", "material colour", "object moved", "selection"])
+def test_images_are_not_read_again_for_other_edits(edits, edit):
+    assert edits[edit]["images read"] == 0
 
 
 @pytest.mark.parametrize("edit", ["exposure", "view transform", "selection", "camera"])

@@ -39,8 +39,9 @@ def test_the_picture_in_work(status):
 
 
 def test_pause_and_warnings(status):
-    line = status.status_of(solver(paused=True, warnings=["a", "b"]), view(), "FINAL").line
-    assert line.startswith("Paused · ") and line.endswith(" · final · 2 warnings")
+    told = status.status_of(solver(paused=True, warnings=["a", "b"]), view(), "FINAL")
+    assert told.line.startswith("Paused · ") and told.line.endswith(" · final · 2 warnings")
+    assert told.warnings == ("a", "b")
     assert status.status_of(solver(warnings=["a"]), view(), "").line.endswith(" · 1 warning")
 
 

@@ -21,8 +21,29 @@ WIDTH = 12.0  # m, of the view
 inspection_panel, patch_links = recorder.addon("inspection_panel"), recorder.addon("patch_links")
 PickPatch = recorder.addon("pick_patch").ANTIRADIANCE_OT_pick_patch
 
+overlays = {}  # pointer of the region -> what lay over the scene in its last drawing
 refusals = []  # what the operator told the artist
 PickPatch.report = lambda _self, _kinds, text: refusals.append(text)
+
+
+def keep_overlay():
+    overlays[bpy.context.region.as_pointer()] = live_view.read_pixels()
+
+
+bpy.types.SpaceView3D.draw_handler_add(keep_overlay, (), "WINDOW", "POST_PIXEL")
+
+
+def redrawn(region):
+    """Steps until the region has been drawn as it is now."""
+    before = len(live_view.seen(region).drawings)
+
+    def is_drawn():
+        """the region is drawn"""
+        region.tag_redraw()
+        # The drawing that is under way may have begun before.
+        return len(live_view.seen(region).drawings) >= before + 2
+
+    yield from windowed.until(is_drawn)
 
 
 def walled_floor(visibility, block):
@@ -94,9 +115,10 @@ def place():
     return found and {"point": found.point, "normal": found.normal}
 
 
-def lines():
-    """How many pixels the overlay has in each colour of links."""
-    pixels = windowed.overlay()
+def lines(region):
+    """Steps to how many pixels the overlay has in each colour of links."""
+    yield from redrawn(region)
+    pixels = overlays[region.as_pointer()]
     alpha = pixels[..., 3]
     red, green, blue = np.moveaxis(pixels[..., :3] / np.maximum(alpha, 1e-6)[..., None], 2, 0)
     drawn = alpha > 0.02
@@ -226,24 +248,19 @@ def links_in_colours():
     result = {}
     for name, visibility, block in (("open", "EXPLICIT", False), ("behind", "IMPLICIT", True)):
         [(space, region)] = yield from open_views(visibility, block)
-        yield
-        result[name] = {"before": lines()}
+        result[name] = {"before": (yield from lines(region))}
         pick(region, -1.5, 0)
-        yield
-        result[name]["all"] = lines()
+        result[name]["all"] = yield from lines(region)
         settings = space.shading.antiradiance
         for kind in ("needed", "occluded", "antiradiance"):
             setattr(settings, f"show_{kind}", False)
-            yield
-            result[name][f"without {kind}"] = lines()
+            result[name][f"without {kind}"] = yield from lines(region)
             setattr(settings, f"show_{kind}", True)
         settings.links_shown = 1
-        yield
-        result[name]["one"] = lines()
+        result[name]["one"] = yield from lines(region)
         settings.links_shown = 300
         space.overlay.show_overlays = False
-        yield
-        result[name]["no overlays"] = lines()
+        result[name]["no overlays"] = yield from lines(region)
         space.overlay.show_overlays = True
     return result
 
@@ -252,12 +269,12 @@ def undone_and_loaded():
     """The links follow the solution; a place outlives its patch, until another file is opened."""
     [(space, region)] = yield from open_views("EXPLICIT", block=True)
     pick(region, -2, 1)
-    yield
+    first = yield from lines(region)
 
     def links():
         return patch_links.links_in(live_view.viewport(region), bpy.context.scene, 300)
 
-    result = {"links": [links()["total"]], "lines": [lines()["blue"]]}
+    result = {"links": [links()["total"]], "lines": [first["blue"]]}
     with live_view.in_view(region):
         bpy.ops.ed.undo_push(message="before")
 
@@ -277,9 +294,9 @@ def undone_and_loaded():
 
     for edit in (remove_wall, move_floor, undo, undo):
         yield from live_view.solved_anew(region, edit)
-        yield
+        shown = yield from lines(region)
         result["links"].append(links() and links()["total"])
-        result["lines"].append(lines()["blue"])
+        result["lines"].append(shown["blue"])
     walled_floor("EXPLICIT", block=True)
     yield
     result["place after loading"] = place()
@@ -299,8 +316,7 @@ def menu():
         with live_view.in_view(region):
             bpy.ops.wm.call_panel("INVOKE_DEFAULT",
                                   name=inspection_panel.VIEW3D_PT_antiradiance_inspection.__name__)
-        yield
-        yield
+        yield from redrawn(region)
     inspection_panel.swatch = swatch
     return {view: [list(colour) for colour in {tuple(c) for c in seen}]
             for view, seen in asked.items()}

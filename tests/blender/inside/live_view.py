@@ -107,9 +107,9 @@ def solver_state(region):
     return viewport(region).solver.state()
 
 
-def stages(region):
-    """stage -> "run" or "kept", of the newest solution."""
-    return json.loads(solver_state(region)["report"])["stages"]
+def report(region):
+    """Of the newest solution."""
+    return json.loads(solver_state(region)["report"])
 
 
 def is_final(region):
@@ -171,8 +171,9 @@ def described(function, *arguments):
 
 
 def lit_room():
-    """A floor and a block under a point lamp, in a scene of their own, quick to solve."""
+    """A floor and a block under a point lamp in the dark, quick to solve, and nothing else."""
     scene = recorder.empty_scene()
+    scene.world = None
     scene.render.engine = "ANTIRADIANCE"
     scene.antiradiance.link_threshold = 0.1
     recorder.quad("Floor", scale=(4, 4, 1)).data.materials.append(

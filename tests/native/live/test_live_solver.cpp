@@ -74,8 +74,8 @@ TEST(LiveSolver, ACoarseSolutionComesBeforeTheWholeOne) {
     ASSERT_GE(seen.size(), 2U);
     const LiveSolver::Solution& first = *seen.front();
     const LiveSolver::Solution& last = *seen.back();
-    EXPECT_TRUE(first.coarse);
-    EXPECT_FALSE(last.coarse);
+    EXPECT_TRUE(first.preliminary);
+    EXPECT_FALSE(last.preliminary);
     EXPECT_LT(first.report.leaves * 4, last.report.leaves);
     EXPECT_LT(first.report.links.total * 4, last.report.links.total);
 }
@@ -104,7 +104,7 @@ TEST(LiveSolver, RunsOnlyTheStagesThatAnEditConcerns) {
         edit(input);
         solver.post(input);
         EXPECT_TRUE(wait_until_done(solver));
-        EXPECT_FALSE(solver.newest()->coarse);
+        EXPECT_FALSE(solver.newest()->preliminary);
         return ran(solver.newest()->report);
     };
     EXPECT_EQ(after([](StageInput& i) { i.scene.lamps[0].power *= 2.0F; }),
@@ -114,6 +114,24 @@ TEST(LiveSolver, RunsOnlyTheStagesThatAnEditConcerns) {
     EXPECT_EQ(after([](StageInput& i) { i.scene.background = vec3(1); }), "");
     EXPECT_EQ(after([](StageInput& i) { i.scene.positions[0].x += 0.01F; }),
               "model pruning direct_light transport solve evaluation");
+}
+
+TEST(LiveSolver, ADimmedLampIsShownOnTheLinksThatThereAre) {
+    LiveSolver solver;
+    StageInput input = much_work();
+    input.options.link_threshold = 0.1F;  // shadow rays take most of the time
+    solver.post(input);
+    ASSERT_TRUE(wait_until_done(solver));
+    const auto before = solver.newest();
+    input.scene.lamps[0].power *= 0.5F;
+    solver.post(input);
+    ASSERT_TRUE(wait_for([&] { return solver.newest() != before; }));
+    const auto first = solver.newest();
+    EXPECT_TRUE(first->preliminary);
+    EXPECT_EQ(first->scene.model, before->scene.model);
+    EXPECT_EQ(ran(first->report), "transport solve evaluation");
+    ASSERT_TRUE(wait_until_done(solver));
+    EXPECT_EQ(ran(solver.newest()->report), "direct_light transport solve evaluation");
 }
 
 TEST(LiveSolver, APostThatChangesNothingIsNoEdit) {
@@ -144,7 +162,7 @@ TEST(LiveSolver, TheNewestEditCancelsRunningWork) {
     Report report;
     fresh.run(office(), progress, report);
     EXPECT_EQ(solver.newest()->report.links.total, report.links.total);
-    EXPECT_FALSE(solver.newest()->coarse);
+    EXPECT_FALSE(solver.newest()->preliminary);
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 

@@ -365,6 +365,40 @@ TEST_F(LeafIrradiance, inner_nodes_stay_zero_and_cancel_works) {
     EXPECT_THROW(std::ignore = light.leaf_irradiance(tree, cancelled), Cancelled);
 }
 
+TEST_F(LeafIrradiance, shares_of_lights_add_up) {
+    // Two lamps, each with rays of its own; and 50 panels of two materials, of which some are
+    // chosen.
+    Scene scene;
+    const int white = test::add_material(scene, vec3(0.5F));
+    const int red = test::add_material(scene, vec3(0), vec3(4, 0, 0));
+    const int blue = test::add_material(scene, vec3(0), vec3(0, 0, 4));
+    test::add_quad(scene, "floor", vec3(0), 5.0F * kX, 5.0F * kY, white);
+    for (int i = 0; i < 50; ++i) {
+        const vec3 corner(static_cast<float>(i % 10) * 0.5F, static_cast<float>(i / 10), 2);
+        test::add_quad(scene, "panel", corner, 0.2F * kX, 0.2F * kY, i % 2 ? red : blue);
+    }
+    scene.lamps.push_back(point_lamp(vec3(1, 1, 1), 1));
+    scene.lamps.push_back(point_lamp(vec3(4, 4, 1), 2));
+    const PatchTree tree = test::front_tree(scene, 1);
+    const RayScene rays(scene);
+    Progress progress;
+    const DirectLight light(scene, rays, DirectLightMode::kExplicit, progress);
+    LightShares shares;
+    const std::vector<vec3> all = light.leaf_irradiance(tree, progress, &shares);
+    ASSERT_EQ(shares.lights, (std::vector<LightSource>{
+                                 {.lamp = 0}, {.lamp = 1}, {.material = blue}, {.material = red}}));
+    for (const NodeId leaf : tree.leaves) {
+        const auto n = static_cast<std::size_t>(leaf);
+        vec3 sum(0);
+        for (const auto& share : shares.irradiance)
+            sum += share[n];
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(sum[c], all[n][c], 1e-5F * all[n][c]);
+        EXPECT_EQ(shares.irradiance[2][n].x, 0) << "blue panels send no red";
+        EXPECT_EQ(shares.irradiance[3][n].z, 0);
+    }
+}
+
 TEST(SpreadFirst, keeps_all_points_and_begins_with_the_diagonal) {
     std::vector<SurfacePoint> points;
     for (int i = 0; i < 16; ++i)

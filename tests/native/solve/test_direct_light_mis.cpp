@@ -24,6 +24,8 @@ struct MeshLight {
         std::vector<EmitterBounds> bounds;
         for (const EmitterPtr& emitter : mesh.emitters)
             bounds.push_back(emitter->bounds());
+        light.lights.emplace_back();
+        light.light_of.assign(bounds.size(), 0);
         light.emitters = std::move(mesh.emitters);
         light.of_triangle = std::move(mesh.of_triangle);
         light.in_tree.resize(bounds.size());
