@@ -74,6 +74,8 @@ def draw_links():
 
 
 def draw_lines(ends, colours, share, width):
+    if not len(ends):  # which Blender can't make a batch of
+        return
     shader = polyline_shader("POLYLINE_SMOOTH_COLOR", width)
     colours = colours * (1.0, 1.0, 1.0, share)
     batch_for_shader(shader, "LINES", {"pos": ends, "color": colours.astype(np.float32)}).draw(

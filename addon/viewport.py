@@ -54,7 +54,7 @@ class Viewport:
             with self._failing("draw"):
                 self._draw(engine, context, depsgraph)
         self.status = self._present_status()
-        engine.update_stats("", inspection.captioned(self.status.line, context.space_data.shading))
+        engine.update_stats("", self._caption(context))
 
     def pause(self, paused: bool):
         if self.solver is not None:
@@ -124,6 +124,11 @@ class Viewport:
         newest = None if self.view is None else self.view.picture(self._number)
         if newest is not None:
             self._newest, self._number = newest, newest["number"]
+
+    def _caption(self, context) -> str:
+        if self.view is None:
+            return self.status.line
+        return inspection.captioned(self.status.line, context.space_data.shading)
 
     def _present_status(self) -> Status:
         if self._failures or self.view is None:

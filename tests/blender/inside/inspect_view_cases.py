@@ -18,12 +18,14 @@ import windowed  # noqa: E402
 
 FOLDER = pathlib.Path(recorder.arguments()[0])
 WIDTH = 12.0  # m, of the view
+KINDS = ("needed", "occluded", "antiradiance")
 inspection_panel, patch_links = recorder.addon("inspection_panel"), recorder.addon("patch_links")
 PickPatch = recorder.addon("pick_patch").ANTIRADIANCE_OT_pick_patch
 
 overlays = {}  # pointer of the region -> what lay over the scene in its last drawing
 refusals = []  # what the operator told the artist
-PickPatch.report = lambda _self, _kinds, text: refusals.append(text)
+refuse = PickPatch._refuse
+PickPatch._refuse = lambda self, reason: (refusals.append(reason), refuse(self, reason))[1]
 
 
 def keep_overlay():
@@ -47,15 +49,17 @@ def redrawn(region):
 
 
 def walled_floor(visibility, block):
-    """block: whether one stands between the wall and the floor's -X half."""
+    """block: whether one hides most of the wall from a place 1.5 m to the -X side of the middle."""
     scene = live_view.lit_room()
     scene.antiradiance.visibility = visibility
     scene.antiradiance.max_patch_size = 1.0
     recorder.quad("Wall", scale=(1.5, 4, 1), location=(4, 0, 1.5),
                   rotation_euler=(0, -np.pi / 2, 0)).data.materials.append(
         recorder.material("Wall", albedo=(0.6,) * 3))
+    thing = bpy.data.objects["Block"]
+    thing.scale, thing.location.z = (0.5, 4, 0.5), 0.25
     if not block:
-        bpy.data.objects.remove(bpy.data.objects["Block"])
+        bpy.data.objects.remove(thing)
     return scene
 
 
@@ -128,10 +132,6 @@ def lines(region):
             "any": np.sum(drawn)}
 
 
-def colours(pixels):
-    return len(np.unique(np.round(pixels[..., :3], 2).reshape(-1, 3), axis=0))
-
-
 def nearest_bin(solved, x, y, z):
     """The bin of light that travels along a vector."""
     return int(np.argmax([solved.bin_axis(b) @ (x, y, z) for b in range(solved.bin_count)]))
@@ -152,8 +152,7 @@ def views_of_open_room():
         shown[view] = yield from inspected(space, region, view=view)
     back = yield from inspected(space, region, view="OFF")
     np.savez(FOLDER / "open_room.npz", **shown, back=back)
-    return {"file": str(FOLDER / "open_room.npz"), "colours": {k: colours(v) for k, v in shown.items()},
-            "solutions": [before, live_view.solver_state(region)["solutions"]]}
+    return {"file": str(FOLDER / "open_room.npz"), "solutions": [before, live_view.solver_state(region)["solutions"]]}
 
 
 def beside_each_other():
@@ -164,8 +163,8 @@ def beside_each_other():
     before = solver.state()["solutions"]
     one = yield from inspected(space, region, view="HIERARCHY", level=1)
     other = yield from inspected(other_space, other_region, view="EXPLICIT_DIFFERENCE")
-    result = {"one": np.ptp(one[..., :3], axis=2).mean(), "other": colours(other),
-              "views": [s.shading.antiradiance.view for s, _region in views],
+    np.savez(FOLDER / "beside.npz", one=one, other=other)
+    result = {"file": str(FOLDER / "beside.npz"), "views": [s.shading.antiradiance.view for s, _region in views],
               "one solver": live_view.viewport(other_region).solver is solver,
               "solutions": [before, solver.state()["solutions"]]}
     space.shading.antiradiance.links_shown = 123
@@ -181,14 +180,14 @@ def beside_each_other():
 
 def picked_at():
     """On the floor, on the block, beside all; and before there is a solution."""
-    scene = walled_floor("EXPLICIT", block=True)
+    walled_floor("EXPLICIT", block=True)
     [(space, region)] = yield from live_view.small_views()
     look_down(space)
     refusals.clear()
     space.shading.type = "RENDERED"
     result = {"too early": [pick(region, 0, 0), *refusals]}
     yield from live_view.final(region)
-    for name, x, y in (("floor", -2, 1), ("block", 0.2, 0.1)):
+    for name, x, y in (("floor", -2, 1), ("block", 0.1, 0.3)):
         done = pick(region, x, y)
         result[name] = {"done": done, **place(), "expected": (x, y)}
     refusals.clear()
@@ -201,8 +200,6 @@ def picked_at():
         bpy.ops.antiradiance.pick_patch(location=(region.width // 2, region.height // 2))
     result["perspective"] = place()
     result["pixel"] = WIDTH / region.width
-    result["is_dirty"] = bpy.data.is_dirty
-    result["in file"] = [key for key in scene.keys() if key.startswith("antiradiance")]
     return result
 
 
@@ -245,23 +242,24 @@ def clicked():
 
 
 def links_in_colours():
+    """Of a place on the floor: all links, those of one kind, none."""
     result = {}
     for name, visibility, block in (("open", "EXPLICIT", False), ("behind", "IMPLICIT", True)):
         [(space, region)] = yield from open_views(visibility, block)
-        result[name] = {"before": (yield from lines(region))}
-        pick(region, -1.5, 0)
-        result[name]["all"] = yield from lines(region)
         settings = space.shading.antiradiance
-        for kind in ("needed", "occluded", "antiradiance"):
-            setattr(settings, f"show_{kind}", False)
-            result[name][f"without {kind}"] = yield from lines(region)
+        case = result[name] = {"before": (yield from lines(region))}
+        pick(region, -1.5, 0)
+        for shown in KINDS:
+            for kind in KINDS:
+                setattr(settings, f"show_{kind}", kind == shown)
+            case[shown] = yield from lines(region)
+        for kind in KINDS:
             setattr(settings, f"show_{kind}", True)
+        case["all"] = yield from lines(region)
         settings.links_shown = 1
-        result[name]["one"] = yield from lines(region)
-        settings.links_shown = 300
+        case["one"] = yield from lines(region)
         space.overlay.show_overlays = False
-        result[name]["no overlays"] = yield from lines(region)
-        space.overlay.show_overlays = True
+        case["no overlays"] = yield from lines(region)
     return result
 
 
@@ -330,7 +328,6 @@ def steps():
     yield
     results = {}
     for case in CASES:
-        print("CASE", case.__name__, flush=True)
         results[case.__name__] = yield from case()
     return results
 
