@@ -39,7 +39,8 @@ def make_group(modes, kinds) -> type:
             min=0, soft_max=255, update=_redraw),
         "show_links": bpy.props.BoolProperty(
             name="Links of a Patch", description="Draw the links that bring light to the patch "
-            "that was picked, and those that take it back", update=_redraw),
+            "that was picked, and those that take it back. Links to a larger patch that it is a "
+            "part of end at the middle of that one", update=_redraw),
         "links_shown": bpy.props.IntProperty(
             name="Links at Most", description="How many links are drawn: those that carry the most",
             default=300, min=1, soft_max=2000, max=10000, update=_redraw),

@@ -11,7 +11,8 @@ from gpu_extras.batch import batch_for_shader
 from . import core, inspection, live, patch_links
 
 # By the id of the kind, as the screen shows them.
-COLOURS = {"NEEDED": (0.05, 0.35, 1.0), "OCCLUDED": (1.0, 0.8, 0.0), "ANTIRADIANCE": (1.0, 0.05, 0.05)}
+COLOURS = {"NEEDED": (0.05, 0.35, 1.0), "OCCLUDED": (1.0, 0.8, 0.0),
+           "ANTIRADIANCE": (1.0, 0.05, 0.05)}
 FAINTEST = 0.12    # alpha of what carries next to nothing
 BEHIND = 0.3       # of the alpha, of what is behind a surface
 LINE_WIDTH = 1.5   # px at Blender's own scale, as all lengths below

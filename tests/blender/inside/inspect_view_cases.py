@@ -152,7 +152,8 @@ def views_of_open_room():
         shown[view] = yield from inspected(space, region, view=view)
     back = yield from inspected(space, region, view="OFF")
     np.savez(FOLDER / "open_room.npz", **shown, back=back)
-    return {"file": str(FOLDER / "open_room.npz"), "solutions": [before, live_view.solver_state(region)["solutions"]]}
+    return {"file": str(FOLDER / "open_room.npz"),
+            "solutions": [before, live_view.solver_state(region)["solutions"]]}
 
 
 def beside_each_other():
@@ -164,7 +165,8 @@ def beside_each_other():
     one = yield from inspected(space, region, view="HIERARCHY", level=1)
     other = yield from inspected(other_space, other_region, view="EXPLICIT_DIFFERENCE")
     np.savez(FOLDER / "beside.npz", one=one, other=other)
-    result = {"file": str(FOLDER / "beside.npz"), "views": [s.shading.antiradiance.view for s, _region in views],
+    result = {"file": str(FOLDER / "beside.npz"),
+              "views": [s.shading.antiradiance.view for s, _region in views],
               "one solver": live_view.viewport(other_region).solver is solver,
               "solutions": [before, solver.state()["solutions"]]}
     space.shading.antiradiance.links_shown = 123
@@ -173,8 +175,9 @@ def beside_each_other():
     other_space.shading.antiradiance.view = space.shading.antiradiance.view = "RESIDUAL"
     bpy.ops.wm.open_mainfile(filepath=file, load_ui=True)
     yield
-    result["loaded"] = sorted([s.shading.antiradiance.view, s.shading.antiradiance.level,
-                               s.shading.antiradiance.links_shown] for s, _r in live_view.views()[:2])
+    loaded = [s.shading.antiradiance for s, _region in live_view.views()[:2]]
+    result["loaded"] = sorted([settings.view, settings.level, settings.links_shown]
+                              for settings in loaded)
     return result
 
 
