@@ -5,7 +5,7 @@ Nothing of Blender's data is kept from one call to the next: undo makes all of i
 """
 import time
 
-from . import core, failures
+from . import core, failures, inspection
 from .properties import option_values
 from .sync import SceneWriter
 from .view_camera import camera_of
@@ -54,7 +54,7 @@ class Viewport:
             with self._failing("draw"):
                 self._draw(engine, context, depsgraph)
         self.status = self._present_status()
-        engine.update_stats("", self.status.line)
+        engine.update_stats("", self._caption(context))
 
     def pause(self, paused: bool):
         if self.solver is not None:
@@ -112,6 +112,7 @@ class Viewport:
         camera = camera_of(context, depsgraph)
         if camera is None:  # the border is out of sight
             return
+        self.view.set_inspection(*inspection.arguments(context.space_data.shading))
         self.view.set_camera(camera.pop("matrix"), **camera)
         self._fetch()
         if self._newest is not None:
@@ -123,6 +124,11 @@ class Viewport:
         newest = None if self.view is None else self.view.picture(self._number)
         if newest is not None:
             self._newest, self._number = newest, newest["number"]
+
+    def _caption(self, context) -> str:
+        if self.view is None:
+            return self.status.line
+        return inspection.captioned(self.status.line, context.space_data.shading)
 
     def _present_status(self) -> Status:
         if self._failures or self.view is None:

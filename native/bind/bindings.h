@@ -4,6 +4,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
+#include "inspect/inspect.h"
 #include "pipeline/options.h"
 
 namespace antiradiance {
@@ -18,5 +21,8 @@ void bind_inspect(pybind11::module_& module);     // SolvedScene, links_of, insp
 
 // values: name -> value; options that it lacks are at their defaults. Throws SceneError.
 Options to_options(const pybind11::dict& values);
+
+// The mode with this id; throws ValueError when there is none.
+InspectMode to_inspect_mode(const std::string& id);
 
 }  // namespace antiradiance

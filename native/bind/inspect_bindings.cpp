@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <span>
+#include <string>
 
 #include "bind/arrays.h"
 #include "bind/bindings.h"
@@ -70,9 +74,25 @@ py::dict links_dict(const SolvedScene& solved, NodeId leaf, std::size_t most) {
         bin.mutable_at(i) = link.bin;
     }
     const auto n = static_cast<std::size_t>(leaf);
+    const std::array<vec3, 4> corners = tree.patch_corners(leaf);
+    const py::array_t<float> outline({py::ssize_t{tree.corner_count(leaf)}, py::ssize_t{3}},
+                                     &corners[0].x);
     return py::dict("from"_a = from, "to"_a = to, "kind"_a = kind, "form_factor"_a = form_factor,
                     "bin"_a = bin, "total"_a = found.total, "leaf"_a = leaf,
-                    "center"_a = array_of(tree.center[n]), "normal"_a = array_of(tree.normal[n]));
+                    "center"_a = array_of(tree.center[n]), "normal"_a = array_of(tree.normal[n]),
+                    "corners"_a = outline, "area"_a = tree.area[n]);
+}
+
+py::array_t<float> bin_axis(const SolvedScene& solved, int bin) {
+    const DirectionBins& bins = solved.links().bins;
+    return array_of(bins.axis(std::clamp(bin, 0, bins.count() - 1)));
+}
+
+py::list legend_of(const std::string& mode) {
+    py::list result;
+    for (const LegendEntry& entry : legend(to_inspect_mode(mode)))
+        result.append(py::make_tuple(array_of(entry.colour), entry.meaning));
+    return result;
 }
 
 py::list tuples(std::span<const EnumItem> items) {
@@ -85,6 +105,13 @@ py::list tuples(std::span<const EnumItem> items) {
 
 }  // namespace
 
+InspectMode to_inspect_mode(const std::string& id) {
+    const std::span<const EnumItem> modes = inspect_modes();
+    const auto item = std::ranges::find(modes, id, &EnumItem::id);
+    if (item == modes.end()) throw py::value_error("there is no inspection '" + id + "'");
+    return static_cast<InspectMode>(item - modes.begin());
+}
+
 void bind_inspect(py::module_& module) {
     py::class_<SolvedScene, std::shared_ptr<SolvedScene>>(
         module, "SolvedScene", "A scene and its light; nothing in it changes")
@@ -94,7 +121,10 @@ void bind_inspect(py::module_& module) {
             "Levels of the hierarchy, from the leaves to the one node above all")
         .def_property_readonly(
             "bin_count", [](const SolvedScene& solved) { return solved.links().bins.count(); },
-            "Directions that its links are sorted by");
+            "Directions that its links are sorted by")
+        .def("bin_axis", &bin_axis, "bin"_a,
+             "(3,) f32, unit: which way the light of a bin travels, world space; of the last for "
+             "a bin that there is not");
     module.def("solve", &solve, "scene"_a, "options"_a,
                "The SolvedScene of a scene. Raises SceneError");
     module.def("pick", &pick_leaf, "solved"_a, "origin"_a, "direction"_a,
@@ -104,11 +134,16 @@ void bind_inspect(py::module_& module) {
                "The links that end at a leaf or one of its ancestors, the `most` of them with the "
                "largest transfer, largest first: a dict of from, to (n,3) f32, centres of both "
                "ends, m, world space; kind (n,) u8, an index into link_kinds(); form_factor (n,) "
-               "f32, antiradiance below 0; bin (n,) i32; total, how many there are; leaf; center, "
-               "normal (3,) f32 of the leaf. Raises IndexError for a leaf of another solution");
+               "f32, antiradiance below 0; bin (n,) i32; total, how many there are; leaf; and of "
+               "the leaf center, normal (3,) f32; corners (3 or 4,3) f32; area, m2. Raises "
+               "IndexError for a leaf of another solution");
     module.def(
         "inspect_modes", [] { return tuples(inspect_modes()); },
         "What the viewport can show of a solution beside its picture: (id, label, tooltip) each");
+    module.def(
+        "inspect_legend", &legend_of, "mode"_a,
+        "What the colours of a mode mean: (colour (3,) f32 linear Rec.709, text) each; empty "
+        "where they stand for no numbers");
     module.def(
         "link_kinds", [] { return tuples(link_kinds()); },
         "By the kind of a link: (id, label, tooltip) each");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rendered viewport. No thread of the core calls Python, and nothing here waits for one but the
 // ends of a solver and a view.
-#include <algorithm>
-#include <span>
 #include <string>
 
 #include "bind/arrays.h"
@@ -41,10 +39,7 @@ std::shared_ptr<SolvedScene> solution_of(const LiveSolver& solver) {
 }
 
 void set_inspection(LiveView& view, const std::string& mode, int level, int bin) {
-    const std::span<const EnumItem> modes = inspect_modes();
-    const auto item = std::ranges::find(modes, mode, &EnumItem::id);
-    if (item == modes.end()) throw py::value_error("there is no inspection '" + mode + "'");
-    view.set_inspection({static_cast<InspectMode>(item - modes.begin()), level, bin});
+    view.set_inspection({to_inspect_mode(mode), level, bin});
 }
 
 // (h, w, 4), without a copy: a picture of a large viewport takes its time.

@@ -100,27 +100,58 @@ Inspection explicit_difference(const Asked& asked, Progress& progress) {
         .shaded = true};
 }
 
+std::vector<LegendEntry> no_legend() {
+    return {};
+}
+
+std::vector<LegendEntry> legend_of_radiance() {
+    return {{colour_of_radiance(1), "As much light as the picture shows white"},
+            {colour_of_radiance(0.2F), "A fifth of that"},
+            {colour_of_radiance(0), "None"},
+            {colour_of_radiance(-0.5F), "Antiradiance takes back more than there is"}};
+}
+
+std::vector<LegendEntry> legend_of_residual() {
+    return {{colour_of_residual(1), "1, the brightest patch itself"},
+            {colour_of_residual(1e-2F), "0.01"},
+            {colour_of_residual(1e-4F), "0.0001"},
+            {colour_of_residual(1e-6F), "A millionth or less"}};
+}
+
+std::vector<LegendEntry> legend_of_difference() {
+    return {{colour_of_difference(kFullDifference), "Brighter by half of the mean or more"},
+            {colour_of_difference(kFullDifference / 2), "Brighter by a quarter"},
+            {colour_of_difference(0), "The same"},
+            {colour_of_difference(-kFullDifference / 2), "Darker by a quarter"},
+            {colour_of_difference(-kFullDifference), "Darker by half of the mean or more"}};
+}
+
 struct Mode {
     EnumItem item;
     Inspection (*inspect)(const Asked&, Progress&);
+    std::vector<LegendEntry> (*legend)();
 };
 // By InspectMode.
 constexpr std::array<Mode, 5> kModes{{
-    {{"OFF", "Off", "The picture itself"}, refuse},
+    {{"OFF", "Picture", "The picture itself"}, refuse, no_legend},
     {{"HIERARCHY", "Hierarchy", "The patches of one level, each in a colour of its own"},
-     hierarchy},
+     hierarchy,
+     no_legend},
     {{"INCOMING_BIN", "Incoming Bin",
       "Light that links bring to each patch in one direction bin, in grey; red where antiradiance "
       "takes back more than there is"},
-     incoming_bin},
+     incoming_bin,
+     legend_of_radiance},
     {{"RESIDUAL", "Residual",
       "What one more pass over the links would change: black below a millionth of the brightest "
       "patch, then red, yellow and white on a logarithmic scale"},
-     residual},
+     residual,
+     legend_of_residual},
     {{"EXPLICIT_DIFFERENCE", "Explicit Difference",
       "Indirect light beside that of Visibility Explicit: blue where it is darker, red where it is "
       "brighter, at full strength by half of the mean irradiance"},
-     explicit_difference},
+     explicit_difference,
+     legend_of_difference},
 }};
 
 constexpr std::array<EnumItem, kModes.size()> items_of_modes() {
@@ -173,6 +204,10 @@ float shade(const Fragment& f, const GBuffer& buffer, const Camera& camera,
 
 std::span<const EnumItem> inspect_modes() {
     return kItems;
+}
+
+std::vector<LegendEntry> legend(InspectMode mode) {
+    return kModes.at(static_cast<std::size_t>(mode)).legend();
 }
 
 Inspection inspect(const SolvedScene& solved, const InspectOptions& options,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "base/progress.h"
@@ -26,6 +27,15 @@ enum class InspectMode {
 
 // By InspectMode.
 [[nodiscard]] std::span<const EnumItem> inspect_modes();
+
+// What a colour of a mode means.
+struct LegendEntry {
+    vec3 colour;  // as in Inspection
+    std::string_view meaning;
+};
+
+// Of modes whose colours stand for numbers, the largest first; of others empty.
+[[nodiscard]] std::vector<LegendEntry> legend(InspectMode mode);
 
 struct InspectOptions {
     InspectMode mode = InspectMode::kOff;

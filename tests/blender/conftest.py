@@ -25,11 +25,14 @@ REFERENCES = json.loads((IMAGES / "references.json").read_text())
 
 @pytest.fixture(scope="session")
 def in_blender(run_blender, tmp_path_factory):
-    """in_blender("script.py", *arguments) -> what the script gave to recorder.finish()."""
+    """in_blender("script.py", *arguments, options=()) -> what the script gave to recorder.finish().
 
-    def run(script, *arguments, timeout=300, window=False):
+    options: of Blender's own command line.
+    """
+
+    def run(script, *arguments, timeout=300, window=False, options=()):
         output = tmp_path_factory.mktemp("inside") / "result.json"
-        done = run_blender("-P", INSIDE / script, "--", output, *arguments, timeout=timeout,
+        done = run_blender(*options, "-P", INSIDE / script, "--", output, *arguments, timeout=timeout,
                            window=window)
         assert done.returncode == 0, done.stdout
         # What fails while Blender draws is only printed.

@@ -51,6 +51,9 @@ def test_links_end_at_the_picked_leaf(core, solved):
     assert links["leaf"] == leaf
     assert links["normal"] == pytest.approx([0, 0, 1])
     assert links["center"][2] == pytest.approx(0)
+    corners = links["corners"]
+    assert corners.mean(axis=0) == pytest.approx(links["center"]), "a rectangle"
+    assert numpy.prod(numpy.ptp(corners, axis=0)[:2]) == pytest.approx(links["area"])
     assert links["to"][:, 2] == pytest.approx(numpy.zeros(count))
     assert links["from"][:, 2] == pytest.approx(numpy.full(count, 2)), "all light comes from above"
     needed = [kind for kind, *_ in core.link_kinds()].index("NEEDED")
@@ -86,3 +89,25 @@ def test_modes_are_items_of_an_enum(core, solved):
     for _, label, tooltip in modes + core.link_kinds():
         assert label and tooltip and not tooltip.endswith(".")
     assert solved.level_count > 2, "leaves, surfaces and a node above both"
+
+
+def test_legends_name_the_colours_of_numbers(core):
+    assert core.inspect_legend("OFF") == core.inspect_legend("HIERARCHY") == []
+    largest, *_, least = core.inspect_legend("RESIDUAL")
+    assert largest[0] == pytest.approx([1, 1, 1]) and least[0] == pytest.approx([0, 0, 0])
+    brighter, _, same, _, darker = core.inspect_legend("EXPLICIT_DIFFERENCE")
+    assert brighter[0].argmax() == 0 and darker[0].argmax() == 2
+    assert same[0] == pytest.approx([1, 1, 1])
+    with pytest.raises(ValueError, match="'HEAT'"):
+        core.inspect_legend("HEAT")
+
+
+def test_bins_have_directions(core, solved):
+    """Light from the plate above arrives downwards."""
+    links = core.links_of(solved, core.pick(solved, (0.3, 0.4, 1), (0, 0, -1)), most=1)
+    axis = solved.bin_axis(links["bin"][0])
+    assert numpy.linalg.norm(axis) == pytest.approx(1)
+    along = (links["to"] - links["from"])[0]
+    # A bin of 32 or more is narrower than 45 degrees to either side.
+    assert axis @ along / numpy.linalg.norm(along) > 0.7
+    assert solved.bin_axis(10**6) == pytest.approx(solved.bin_axis(solved.bin_count - 1))
