@@ -34,7 +34,7 @@ py::dict state_of_solver(const LiveSolver& solver) {
 
 // A copy, which shares all: null before the first.
 std::shared_ptr<SolvedScene> solution_of(const LiveSolver& solver) {
-    const auto newest = solver.newest();
+    const auto newest = solver.newest_whole();
     return newest ? std::make_shared<SolvedScene>(newest->scene) : nullptr;
 }
 
@@ -85,7 +85,7 @@ void bind_live(py::module_& module) {
              "The newest edit. Cancels running work that solves for something else; nothing "
              "happens when no picture would differ. What is wrong with the scene shows in state()")
         .def("pause", &LiveSolver::pause, "paused"_a, "While paused, edits wait")
-        .def("solution", &solution_of, "The newest SolvedScene, or None")
+        .def("solution", &solution_of, "The SolvedScene of the newest whole solution, or None")
         .def("stop", &LiveSolver::stop, py::call_guard<py::gil_scoped_release>(),
              "Cancels the work and waits for its end; edits are then left alone")
         .def("state", &state_of_solver,

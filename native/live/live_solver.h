@@ -63,6 +63,8 @@ public:
 
     [[nodiscard]] State state() const;
     [[nodiscard]] std::shared_ptr<const Solution> newest() const;  // null before the first
+    // The newest one that is not preliminary; null before the first.
+    [[nodiscard]] std::shared_ptr<const Solution> newest_whole() const;
 
     // Holding it makes the work stand aside, for something that has to be quick.
     [[nodiscard]] PauseGate& gate() { return gate_; }
@@ -101,6 +103,7 @@ private:
     Progress* running_ = nullptr;
     std::chrono::steady_clock::time_point shielded_until_;  // from edits; not from stop()
     std::shared_ptr<const Solution> newest_;
+    std::shared_ptr<const Solution> newest_whole_;
     bool stop_ = false;
 
     std::thread thread_;  // last: it uses all the others

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::chrono::duration<double> kRest{0.12};  // without a move, for a view to rest
 
-// Quick pictures come before solving.
+// Navigation pictures come before solving. Longer ones do not: a solution that is being edited
+// would wait for pictures of what it was.
 class StandAside {
 public:
     StandAside(PauseGate& gate, bool stand_aside) : gate_(stand_aside ? &gate : nullptr) {
@@ -91,13 +92,18 @@ std::shared_ptr<const LivePicture> LiveView::newest() const {
     return newest_;
 }
 
+// A preliminary one has other patches and links than those that are inspected.
+std::shared_ptr<const LiveSolver::Solution> LiveView::newest_solution() const {
+    return inspection_.mode == InspectMode::kOff ? solver_->newest() : solver_->newest_whole();
+}
+
 std::optional<LiveView::Subject> LiveView::subject() const {
     const LiveSolver::State solving = solver_->state();
     Subject result;
-    result.solution = solver_->newest();
     // While paused, what there is is all there will be.
     result.whole = !solving.working || solving.paused;
     const std::scoped_lock lock(mutex_);
+    result.solution = newest_solution();
     if (!result.solution || !camera_) return std::nullopt;
     result.camera = *camera_;
     result.inspection = inspection_;
@@ -147,9 +153,8 @@ void LiveView::serve() {
 }
 
 bool LiveView::is_outdated(const Subject& subject) const {
-    const bool same_solution = solver_->newest() == subject.solution;
     const std::scoped_lock lock(mutex_);
-    return stop_ || !same_solution || request_ != subject.request;
+    return stop_ || newest_solution() != subject.solution || request_ != subject.request;
 }
 
 Picture LiveView::draw(const Subject& subject, const PictureLevel& level, const Camera& camera,
@@ -177,7 +182,7 @@ void LiveView::make(const Subject& subject, const PictureLevel& level) {
     std::string error;
     try {
         auto picture = std::make_shared<LivePicture>();
-        const StandAside urgent(solver_->gate(), is_urgent(level.name));
+        const StandAside urgent(solver_->gate(), navigates);
         Stopwatch watch;
         const Camera camera = share < 1 ? scaled(subject.camera, share) : subject.camera;
         picture->picture = draw(subject, level, camera, progress);

@@ -61,6 +61,7 @@ private:
     };
 
     void serve();
+    [[nodiscard]] std::shared_ptr<const LiveSolver::Solution> newest_solution() const;
     [[nodiscard]] std::optional<Subject> subject() const;
     [[nodiscard]] std::optional<PictureLevel> next_level(const Subject& subject) const;
     void make(const Subject& subject, const PictureLevel& level);

@@ -105,15 +105,16 @@ int link_bins(const Options& options, bool cluster_links) {
     return cluster_links || needs_directions(options) ? options.direction_bins : kFewestBins;
 }
 
-RefineOptions refine_options(const Options& options, float patch_size, std::size_t surfaces) {
+RefineOptions refine_options(const Options& options, float patch_size, std::size_t surfaces,
+                             float coarseness) {
     RefineOptions refine;
-    refine.link_threshold = options.link_threshold;
+    refine.link_threshold = coarseness * coarseness * options.link_threshold;
     refine.least_edge = kLeastEdge * patch_size;
     if (options.direct_light == DirectLightMode::kImplicit) refine.emitter_share = kEmitterShare;
     refine.antiradiance = options.has_antiradiance();
     refine.spread_touching = needs_directions(options);
-    refine.cluster_links =
-        options.visibility == Visibility::kExplicit && surfaces > kClusterSurfaces;
+    refine.cluster_links = options.visibility == Visibility::kExplicit &&
+                           (surfaces > kClusterSurfaces || coarseness > 1);
     // As fine as direction_bins asks for, whatever the links are sorted by.
     refine.bin_share = static_cast<float>(link_bins(options, refine.cluster_links)) /
                        static_cast<float>(options.direction_bins);
@@ -205,8 +206,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
         coarseness *
         (options.max_patch_size > 0 ? options.max_patch_size : automatic_patch_size(surfaces));
     check_memory(scene, surfaces, patch_size);
-    RefineOptions refine = refine_options(options, patch_size, surfaces.size());
-    refine.link_threshold *= coarseness;
+    RefineOptions refine = refine_options(options, patch_size, surfaces.size(), coarseness);
     refine.planes = &model.planes;
     GrowingTree growing(std::move(surfaces));
     const std::string burden = check_implicit_links(scene, growing, options, refine);

@@ -15,8 +15,8 @@ struct StageInput {
     Scene scene;  // valid (see validate())
     Options options;
     bool film_transparent = false;
-    // Above 1, for a first look: patches are that many times as long, and links split that many
-    // times as late.
+    // Above 1, for a first look: patches are that many times as long, links carry that many times
+    // squared as much, and between clusters where the visibility is EXPLICIT.
     float coarseness = 1;
 };
 

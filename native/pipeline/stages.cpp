@@ -91,8 +91,9 @@ void run_direct_light(const StageInput& input, SolvedScene& solved, Report::Timi
     solved.direct = std::make_shared<DirectLight>(input.scene, solved.model->rays,
                                                   input.options.direct_light, progress);
     const auto shares = std::make_shared<LightShares>();
+    const float tolerance = input.coarseness * input.coarseness * DirectLight::kLeafTolerance;
     solved.leaf_direct = std::make_shared<std::vector<vec3>>(
-        solved.direct->leaf_irradiance(solved.model->tree, progress, shares.get()));
+        solved.direct->leaf_irradiance(solved.model->tree, progress, shares.get(), tolerance));
     solved.light_shares = shares;
     timings.direct = watch.lap();
 }

@@ -96,8 +96,11 @@ public:
 
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes
     // shares: its parts, unless it is null; without lights where there are none, too many or maps.
+    // tolerance: standard error at which rays end, relative.
     [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree, Progress& progress,
-                                                    LightShares* shares = nullptr) const;
+                                                    LightShares* shares = nullptr,
+                                                    float tolerance = kLeafTolerance) const;
+    static constexpr float kLeafTolerance = 0.01F;
 
     struct Impl;  // direct_light_estimate.h
 

@@ -15,7 +15,6 @@ constexpr std::uint32_t kStrata = 16;  // of PatchTree::exposed_mask, 4 x 4
 constexpr int kFirstRays = 16;         // for each emitter and leaf, before a look at the error
 constexpr int kMostRays = 256;
 constexpr int kShadowRays = 64;        // for an emitter that seems to be hidden altogether
-constexpr float kTolerance = 0.01F;    // standard error at which rays end, relative
 constexpr std::size_t kMapPoints = 4;  // of a leaf that shadow maps light
 constexpr std::size_t kBlock = 16;     // leaves; a few ms
 
@@ -40,7 +39,7 @@ void leaf_points(const PatchTree& tree, NodeId leaf, std::uint32_t pass,
 }
 
 // shares: sets the part of each light, unless it is empty.
-vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId leaf,
+vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId leaf, float tolerance,
                std::vector<SurfacePoint>& points, std::span<vec3> shares) {
     leaf_points(tree, leaf, 0, points);
     if (points.empty()) return vec3(0);
@@ -53,7 +52,7 @@ vec3 leaf_mean(const DirectLight::Impl& light, const PatchTree& tree, NodeId lea
             estimate.add(points);
             rays += static_cast<int>(points.size());
         }
-        if (!estimate.refine(kTolerance * luminance(estimate.mean()), kShadowRays)) break;
+        if (!estimate.refine(tolerance * luminance(estimate.mean()), kShadowRays)) break;
     }
     if (!shares.empty()) estimate.split(shares);
     return estimate.mean();
@@ -86,7 +85,7 @@ std::vector<vec3> mapped_leaves(const DirectLight& light, const PatchTree& tree,
 }  // namespace
 
 std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& progress,
-                                               LightShares* shares) const {
+                                               LightShares* shares, float tolerance) const {
     std::vector<vec3> irradiance(tree.size(), vec3(0));
     if (shares) *shares = {};
     if (!any()) return irradiance;
@@ -96,20 +95,20 @@ std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& 
         shares->lights = impl_->lights;
         shares->irradiance.assign(impl_->lights.size(), irradiance);
     }
-    parallel_for_blocks(tree.leaves.size(), kBlock, progress,
-                        [&](std::size_t begin, std::size_t end) {
-                            std::vector<SurfacePoint> points;
-                            std::vector<vec3> parts(split ? impl_->lights.size() : 0);
-                            for (std::size_t i = begin; i < end; ++i) {
-                                progress.check();
-                                const NodeId leaf = tree.leaves[i];
-                                if (!can_be_lit(tree, leaf)) continue;
-                                const auto n = static_cast<std::size_t>(leaf);
-                                irradiance[n] = leaf_mean(*impl_, tree, leaf, points, parts);
-                                for (std::size_t light = 0; light < parts.size(); ++light)
-                                    shares->irradiance[light][n] = parts[light];
-                            }
-                        });
+    parallel_for_blocks(
+        tree.leaves.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+            std::vector<SurfacePoint> points;
+            std::vector<vec3> parts(split ? impl_->lights.size() : 0);
+            for (std::size_t i = begin; i < end; ++i) {
+                progress.check();
+                const NodeId leaf = tree.leaves[i];
+                if (!can_be_lit(tree, leaf)) continue;
+                const auto n = static_cast<std::size_t>(leaf);
+                irradiance[n] = leaf_mean(*impl_, tree, leaf, tolerance, points, parts);
+                for (std::size_t light = 0; light < parts.size(); ++light)
+                    shares->irradiance[light][n] = parts[light];
+            }
+        });
     return irradiance;
 }
 
