@@ -99,6 +99,7 @@ private:
 
     [[nodiscard]] vec2 sample_offset(int s) const {
         const int n = in_.samples_per_axis;
+        if (n == 1) return vec2(0.5F);  // jitter would fray all edges
         const vec2 jitter =
             r2_sample(static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(pixel_));
         return (vec2(s % n, s / n) + jitter) / static_cast<float>(n);
