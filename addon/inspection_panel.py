@@ -79,7 +79,8 @@ def draw_legend(layout, settings, solved):
 def direction(axis) -> str:
     """(3,) in words that say where it mostly goes, and in numbers."""
     strongest = int(np.abs(axis).argmax())
-    word = (("to -X", "to +X"), ("to -Y", "to +Y"), ("down", "up"))[strongest][axis[strongest] > 0]
+    backward, forward = (("to -X", "to +X"), ("to -Y", "to +Y"), ("down", "up"))[strongest]
+    word = forward if axis[strongest] > 0 else backward
     return f"{word} ({', '.join(f'{value:.2f}' for value in axis)})"
 
 
