@@ -29,7 +29,7 @@ PickPatch._refuse = lambda self, reason: (refusals.append(reason), refuse(self, 
 
 
 def keep_overlay():
-    overlays[bpy.context.region.as_pointer()] = live_view.read_pixels()
+    overlays[bpy.context.region.as_pointer()] = windowed.read_pixels()
 
 
 bpy.types.SpaceView3D.draw_handler_add(keep_overlay, (), "WINDOW", "POST_PIXEL")
@@ -326,13 +326,4 @@ def menu():
 CASES = (views_of_open_room, beside_each_other, picked_at, clicked, links_in_colours,
          undone_and_loaded, menu)
 
-
-def steps():
-    yield
-    results = {}
-    for case in CASES:
-        results[case.__name__] = yield from case()
-    return results
-
-
-windowed.drive(steps)
+windowed.drive_cases(CASES)

@@ -8,7 +8,6 @@ import time
 from dataclasses import dataclass, field
 
 import bpy
-import gpu
 import numpy as np
 import recorder
 import windowed
@@ -34,13 +33,6 @@ def seen(region) -> Seen:
     return _seen.setdefault(region.as_pointer(), Seen())
 
 
-def read_pixels():
-    _left, _bottom, width, height = gpu.state.viewport_get()
-    buffer = gpu.state.active_framebuffer_get().read_color(0, 0, width, height, 4, 0, "FLOAT")
-    buffer.dimensions = width * height * 4
-    return np.array(buffer, np.float32).reshape(height, width, 4)
-
-
 def _watch():
     viewport = viewport_module.Viewport
     update, draw = viewport.update, viewport.draw
@@ -55,7 +47,7 @@ def _watch():
         draw(self, engine, context, depsgraph)
         of_region = seen(context.region)
         of_region.drawings.append(time.perf_counter() - begin)
-        of_region.pixels = read_pixels()
+        of_region.pixels = windowed.read_pixels()
 
     viewport.update, viewport.draw = timed_update, timed_draw
 

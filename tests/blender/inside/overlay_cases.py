@@ -318,13 +318,4 @@ def gpu_state():
 CASES = (undone, from_face_undone, sizes_on_invoke, switched_off, parts, outlines, evaluated,
          labels, solo_in_local_view, panels, gpu_state)
 
-
-def steps():
-    yield
-    results = {}
-    for case in CASES:
-        results[case.__name__] = yield from case()
-    return results
-
-
-windowed.drive(steps)
+windowed.drive_cases(CASES)

@@ -186,14 +186,4 @@ def has_picture(region):
 CASES = (shading, engine, other_editor, closed_area, new_file, undone_and_redone, many_cycles,
          disabled)
 
-
-def steps():
-    watch_pictures()
-    yield
-    results = {}
-    for case in CASES:
-        results[case.__name__] = yield from case()
-    return results
-
-
-windowed.drive(steps, redraw=False)
+windowed.drive_cases(CASES, redraw=False, begin=watch_pictures)

@@ -148,13 +148,4 @@ def transparent_film():
 CASES = (through_the_camera, border_of_the_camera, border_of_the_region, orthographic,
          transparent_film)
 
-
-def steps():
-    yield
-    results = {}
-    for case in CASES:
-        results[case.__name__] = yield from case()
-    return results
-
-
-windowed.drive(steps, redraw=False)
+windowed.drive_cases(CASES, redraw=False)

@@ -179,20 +179,14 @@ def internal_error():
             "after": live_view.viewport(region).status.error}
 
 
+def watch_overlays():
+    bpy.types.SpaceView3D.draw_handler_add(_after_drawing, (), "WINDOW", "POST_PIXEL")
+
+
 def _after_drawing():
-    _overlays[bpy.context.region.as_pointer()] = live_view.read_pixels()
+    _overlays[bpy.context.region.as_pointer()] = windowed.read_pixels()
 
 
 CASES = (two_views, local_view, object_types, paused, missing_image, internal_error)
 
-
-def steps():
-    bpy.types.SpaceView3D.draw_handler_add(_after_drawing, (), "WINDOW", "POST_PIXEL")
-    yield
-    results = {}
-    for case in CASES:
-        results[case.__name__] = yield from case()
-    return results
-
-
-windowed.drive(steps, redraw=False)
+windowed.drive_cases(CASES, redraw=False, begin=watch_overlays)

@@ -37,11 +37,16 @@ def overlay():
     return _drawn["pixels"]
 
 
-def _after_drawing():
+def read_pixels():
+    """(h, w, 4) float32, row 0 at the bottom: what has been drawn so far; in a draw handler only."""
     _left, _bottom, width, height = gpu.state.viewport_get()
     pixels = gpu.state.active_framebuffer_get().read_color(0, 0, width, height, 4, 0, "FLOAT")
     pixels.dimensions = width * height * 4
-    _drawn["pixels"] = np.array(pixels, np.float32).reshape(height, width, 4)
+    return np.array(pixels, np.float32).reshape(height, width, 4)
+
+
+def _after_drawing():
+    _drawn["pixels"] = read_pixels()
     _drawn["times"] += 1
 
 
@@ -85,3 +90,18 @@ def drive(steps, redraw=True):
         os._exit(code)  # quitting would ask to save, or crash in the graphics driver
 
     bpy.app.timers.register(tick, first_interval=INTERVAL, persistent=True)
+
+
+def drive_cases(cases, redraw=True, begin=lambda: None):
+    """drive() through generator functions, one after the other, once begin() was called; the result
+    is {name of the case: what it returned}."""
+
+    def steps():
+        begin()
+        yield
+        results = {}
+        for case in cases:
+            results[case.__name__] = yield from case()
+        return results
+
+    drive(steps, redraw)

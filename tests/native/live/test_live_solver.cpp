@@ -11,24 +11,15 @@
 #include "pipeline/session.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
+#include "waiting.h"
 
 namespace antiradiance {
 namespace {
 
 constexpr int kWood = 2;  // material of the office's desks
 
-void sleep_ms(int ms) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-}
-
-// False: not within a minute, which only a solver that hangs takes here.
-bool wait_for(const std::function<bool()>& condition) {
-    for (int i = 0; i < 6000; ++i) {
-        if (condition()) return true;
-        sleep_ms(10);
-    }
-    return false;
-}
+using test::sleep_ms;
+using test::wait_for;
 
 bool wait_until_done(const LiveSolver& solver) {
     return wait_for([&] { return !solver.state().working; });

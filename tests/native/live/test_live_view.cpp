@@ -10,22 +10,13 @@
 #include "pipeline/session.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
+#include "waiting.h"
 
 namespace antiradiance {
 namespace {
 
-void sleep_ms(int ms) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-}
-
-// False: not within a minute, which only a view that hangs takes here.
-bool wait_for(const std::function<bool()>& condition) {
-    for (int i = 0; i < 6000; ++i) {
-        if (condition()) return true;
-        sleep_ms(10);
-    }
-    return false;
-}
+using test::sleep_ms;
+using test::wait_for;
 
 StageInput office(int width = 32, int height = 24) {
     StageInput input;
