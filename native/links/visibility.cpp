@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "links/tested_pairs.h"
 
 namespace antiradiance {
 
 namespace {
 
-constexpr int kFacingTries = 4;  // to find members of two clusters that face each other
+constexpr std::size_t kBlock = 1024;  // pairs; some ms of rays
+constexpr int kFacingTries = 4;       // to find members of two clusters that face each other
 
 // Share of segments between two nodes that are free; only those between points that face each
 // other count, as the form factor has no part of the others.
@@ -60,6 +63,31 @@ constexpr double kEmitterRays = 4;
 bool emits(const PatchTree& tree, NodeId node) {
     const SurfaceId s = tree.surface[static_cast<std::size_t>(node)];
     return s != kNone && tree.surfaces[static_cast<std::size_t>(s)].emits;
+}
+
+// As trace_pairs(); rays: of all pairs, set to those that were traced.
+std::vector<float> trace_unknown_pairs(const PatchTree& tree, const RayScene& scene,
+                                       std::span<const TestedPair> pairs,
+                                       const EarlierPairs& earlier, std::size_t& rays,
+                                       Progress& progress) {
+    std::vector<std::optional<float>> known(pairs.size());
+    parallel_for_blocks(pairs.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            known[i] = earlier.find(pairs[i]);
+    });
+    std::vector<TestedPair> unknown;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!known[i]) unknown.push_back(pairs[i]);
+    }
+    const std::vector<float> traced = trace_pairs(tree, scene, unknown, progress);
+    std::vector<float> shares(pairs.size());
+    auto next = traced.begin();
+    rays = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!known[i]) rays += static_cast<std::size_t>(pairs[i].rays);
+        shares[i] = known[i] ? *known[i] : *next++;
+    }
+    return shares;
 }
 
 }  // namespace
@@ -149,7 +177,7 @@ std::vector<float> trace_pairs(const PatchTree& tree, const RayScene& scene,
                                std::span<const TestedPair> pairs, Progress& progress) {
     const PairVisibility visibility(tree, scene);
     std::vector<float> shares(pairs.size());
-    parallel_for_blocks(pairs.size(), 1024, progress, [&](std::size_t begin, std::size_t end) {
+    parallel_for_blocks(pairs.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
         std::transform(pairs.begin() + static_cast<std::ptrdiff_t>(begin),
                        pairs.begin() + static_cast<std::ptrdiff_t>(end),
                        shares.begin() + static_cast<std::ptrdiff_t>(begin), visibility);
@@ -168,23 +196,31 @@ bool centers_see(const PatchTree& tree, const RayScene& scene, NodeId a, NodeId 
 
 std::size_t apply_ray_visibility(const PatchTree& tree, const RayScene& scene,
                                  const VisibilityRays& rays, std::span<const LinkedPair> pairs,
-                                 std::span<RawLink> links, Progress& progress) {
-    std::vector<TestedPair> tested;
-    tested.reserve(pairs.size());
-    for (const LinkedPair& p : pairs) {
-        double to_a = 0;
-        double to_b = 0;
-        for (const RawLink& l : links.subspan(p.first, p.count))
-            (l.receiver == p.a ? to_a : to_b) +=
-                link_transfer(tree, l.source, l.receiver, l.form_factor);
-        tested.push_back({p.a, p.b, std::max(to_a, to_b)});
-    }
-    const std::size_t count = count_rays(tree, rays, tested);
-    const std::vector<float> visibility = trace_pairs(tree, scene, tested, progress);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        for (RawLink& l : links.subspan(pairs[i].first, pairs[i].count))
-            l.form_factor *= visibility[i];
-    }
+                                 std::span<RawLink> links, Progress& progress,
+                                 const KeptPairs& kept) {
+    std::vector<TestedPair> tested(pairs.size());
+    parallel_for_blocks(pairs.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const LinkedPair& p = pairs[i];
+            double to_a = 0;
+            double to_b = 0;
+            for (const RawLink& l : links.subspan(p.first, p.count))
+                (l.receiver == p.a ? to_a : to_b) +=
+                    link_transfer(tree, l.source, l.receiver, l.form_factor);
+            tested[i] = {p.a, p.b, std::max(to_a, to_b)};
+        }
+    });
+    std::size_t count = count_rays(tree, rays, tested);
+    const std::vector<float> visibility =
+        kept.earlier ? trace_unknown_pairs(tree, scene, tested, *kept.earlier, count, progress)
+                     : trace_pairs(tree, scene, tested, progress);
+    if (kept.now) *kept.now = TestedPairs(tree.size(), tested, visibility, progress);
+    parallel_for_blocks(pairs.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            for (RawLink& l : links.subspan(pairs[i].first, pairs[i].count))
+                l.form_factor *= visibility[i];
+        }
+    });
     return count;
 }
 

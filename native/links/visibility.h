@@ -11,6 +11,9 @@
 
 namespace antiradiance {
 
+class TestedPairs;
+struct EarlierPairs;
+
 // Points on the lit, exposed surface below a node, uniform by area.
 class SurfaceSampler {
 public:
@@ -69,10 +72,17 @@ std::size_t count_rays(const PatchTree& tree, const VisibilityRays& rays,
 // Whether nothing lies between the centres of two patches, each lifted off its surface.
 [[nodiscard]] bool centers_see(const PatchTree& tree, const RayScene& scene, NodeId a, NodeId b);
 
+// Pairs whose visibility is known are not tested again; what all pairs have is left behind.
+struct KeptPairs {
+    const EarlierPairs* earlier = nullptr;  // null: none is known
+    TestedPairs* now = nullptr;             // null: nobody asks
+};
+
 // Multiplies the form factors of the pairs' + links by the pair's visibility; an occluded link gets
-// 0. Pairs name nodes of `tree`. Returns the number of rays.
+// 0. Pairs name nodes of `tree`. Returns the number of rays that were traced.
 std::size_t apply_ray_visibility(const PatchTree& tree, const RayScene& scene,
                                  const VisibilityRays& rays, std::span<const LinkedPair> pairs,
-                                 std::span<RawLink> links, Progress& progress);
+                                 std::span<RawLink> links, Progress& progress,
+                                 const KeptPairs& kept = {});
 
 }  // namespace antiradiance

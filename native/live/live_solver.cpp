@@ -163,10 +163,13 @@ void LiveSolver::solve(const Edit& edit, Progress& progress) {
     shield();
     if (whole_.expected_seconds(input) > kSoon) {
         if (!solve_relit(input, edit, warnings, progress))
-            solve_with(coarse_, coarse_input(input), edit, warnings, progress);
+            last_coarse_ =
+                solve_with(coarse_, coarse_input(input), last_coarse_, edit, warnings, progress);
         unshield();
     }
-    solve_with(whole_, std::move(input), edit, warnings, progress);
+    const auto whole = newest_whole();
+    solve_with(whole_, std::move(input), whole ? std::optional(whole->scene) : std::nullopt, edit,
+               warnings, progress);
 }
 
 bool LiveSolver::solve_relit(const StageInput& input, const Edit& edit,
@@ -178,13 +181,16 @@ bool LiveSolver::solve_relit(const StageInput& input, const Edit& edit,
     return relit.has_value();
 }
 
-void LiveSolver::solve_with(Stages& stages, StageInput input, const Edit& edit,
-                            const std::vector<std::string>& warnings, Progress& progress) {
+SolvedScene LiveSolver::solve_with(Stages& stages, StageInput input,
+                                   const std::optional<SolvedScene>& earlier, const Edit& edit,
+                                   const std::vector<std::string>& warnings, Progress& progress) {
     Stopwatch watch;
     const bool preliminary = input.coarseness > 1;
     Report report = report_of(edit, warnings);
-    SolvedScene solved = stages.run(std::move(input), progress, report);
-    publish(std::move(solved), std::move(report), watch.lap(), preliminary);
+    SolvedScene solved = stages.run(std::move(input), progress, report,
+                                    {.keep = true, .earlier = earlier ? &*earlier : nullptr});
+    publish(solved, std::move(report), watch.lap(), preliminary);
+    return solved;
 }
 
 Report LiveSolver::report_of(const Edit& edit, const std::vector<std::string>& warnings) {

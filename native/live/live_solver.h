@@ -79,8 +79,10 @@ private:
 
     void serve();
     void solve(const Edit& edit, Progress& progress);
-    void solve_with(Stages& stages, StageInput input, const Edit& edit,
-                    const std::vector<std::string>& warnings, Progress& progress);
+    // earlier: what rays found there holds where nothing has moved since.
+    SolvedScene solve_with(Stages& stages, StageInput input,
+                           const std::optional<SolvedScene>& earlier, const Edit& edit,
+                           const std::vector<std::string>& warnings, Progress& progress);
     // False: the edit changed more than the strength of lights.
     bool solve_relit(const StageInput& input, const Edit& edit,
                      const std::vector<std::string>& warnings, Progress& progress);
@@ -93,7 +95,8 @@ private:
 
     PauseGate gate_;
     Bell bell_;
-    Stages coarse_, whole_;  // of the thread
+    Stages coarse_, whole_;                   // of the thread
+    std::optional<SolvedScene> last_coarse_;  // of the thread
 
     mutable std::mutex mutex_;  // of what follows
     State state_;

@@ -174,6 +174,20 @@ void drop_buried(const PatchTree& tree, std::vector<RawLink>& links) {
     }
 }
 
+// Returns the number of rays.
+std::size_t test_links(const Scene& scene, const Options& options, const ModelReuse& reuse,
+                       RefinedLinks& links, Model& model, Progress& progress) {
+    const auto test = [&](const EarlierPairs* earlier) {
+        return apply_ray_visibility(model.tree, model.rays, visibility_rays(options), links.pairs,
+                                    links.links, progress,
+                                    {earlier, reuse.keep ? &model.tested : nullptr});
+    };
+    if (!reuse.model) return test(nullptr);
+    const SceneChange change(*reuse.scene, reuse.model->tree, scene, model.tree);
+    const EarlierPairs earlier{change, reuse.model->tested};
+    return test(&earlier);
+}
+
 }  // namespace
 
 bool needs_directions(const Options& options) {
@@ -189,11 +203,11 @@ VisibilityRays visibility_rays(const Options& options) {
             .emitters_shine = options.direct_light == DirectLightMode::kImplicit};
 }
 
-Model build_model(const Scene& scene, const Options& options, Progress& progress,
-                  float coarseness) {
+Model build_model(const Scene& scene, const Options& options, Progress& progress, float coarseness,
+                  const ModelReuse& reuse) {
     Stopwatch watch;
     progress.begin_stage("Building the patch hierarchy", 0.02F, 0.1F);
-    Model model{RayScene(scene), {}, {}, {}, {}, {}, {}};
+    Model model{RayScene(scene)};
     model.planes = BlockingPlanes(scene.blockers, model.rays.epsilon());
     model.cuts.per_plane.resize(scene.blockers.size());
     std::vector<Surface> surfaces = lit_surfaces(scene, model.rays, options, progress);
@@ -234,8 +248,7 @@ Model build_model(const Scene& scene, const Options& options, Progress& progress
     const bool explicit_visibility = options.visibility == Visibility::kExplicit;
     if (explicit_visibility) {
         progress.begin_stage("Testing visibility", 0.25F, 0.4F);
-        model.link_rays = apply_ray_visibility(model.tree, model.rays, visibility_rays(options),
-                                               refined.pairs, refined.links, progress);
+        model.link_rays = test_links(scene, options, reuse, refined, model, progress);
         model.visibility_seconds = watch.lap();
     }
 

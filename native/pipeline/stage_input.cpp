@@ -2,7 +2,10 @@
 #include "pipeline/stage_input.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "pipeline/model.h"
 
@@ -102,6 +105,21 @@ bool same_direct_light_input(const StageInput& was, const StageInput& is) {
     return same_but_strength_of_lights(was, is) &&
            std::ranges::equal(was.scene.lamps, is.scene.lamps, same_power) &&
            (!all || same_emission(was.scene, is.scene));
+}
+
+bool same_lights(const StageInput& was, const StageInput& is) {
+    const auto emitting = [](const Scene& scene) {
+        std::vector<std::pair<std::int32_t, std::array<vec3, 3>>> triangles;
+        for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+            const std::int32_t material = scene.triangle_material[t];
+            if (scene.materials[static_cast<std::size_t>(material)].emits())
+                triangles.emplace_back(material, scene.corners(static_cast<TriangleId>(t)));
+        }
+        return triangles;
+    };
+    return same_direct_light_input(was, is) &&
+           (is.options.direct_light == DirectLightMode::kImplicit ||
+            emitting(was.scene) == emitting(is.scene));
 }
 
 bool same_but_strength_of_lights(const StageInput& was, const StageInput& is) {

@@ -28,6 +28,8 @@ struct StageInput {
 [[nodiscard]] bool same_direct_light_input(const StageInput& was, const StageInput& is);
 // Whether direct light differs by the strength and colour of lights alone, at most.
 [[nodiscard]] bool same_but_strength_of_lights(const StageInput& was, const StageInput& is);
+// Whether that is so, and nothing that emits has another shape or place.
+[[nodiscard]] bool same_lights(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_transport_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_solve_input(const StageInput& was, const StageInput& is);
 [[nodiscard]] bool same_evaluation_input(const StageInput& was, const StageInput& is);

@@ -22,16 +22,21 @@ namespace {
 struct Stage {
     std::string_view name;  // in the report
     bool (*same_input)(const StageInput& was, const StageInput& is);
-    void (*run)(const StageInput&, SolvedScene&, Report::Timings&, Progress&);
+    void (*run)(const StageInput&, const Stages::Reuse&, SolvedScene&, Report::Timings&, Progress&);
     // Figures and warnings, also when kept.
     void (*describe)(const StageInput&, const SolvedScene&, Report&);
     void (*forget)(SolvedScene&);
 };
 
-void run_model(const StageInput& input, SolvedScene& solved, Report::Timings& timings,
-               Progress& progress) {
+void run_model(const StageInput& input, const Stages::Reuse& reuse, SolvedScene& solved,
+               Report::Timings& timings, Progress& progress) {
+    ModelReuse of_model{.keep = reuse.keep};
+    if (reuse.earlier) {
+        of_model.scene = &reuse.earlier->input->scene;
+        of_model.model = reuse.earlier->model.get();
+    }
     solved.model = std::make_shared<Model>(
-        build_model(input.scene, input.options, progress, input.coarseness));
+        build_model(input.scene, input.options, progress, input.coarseness, of_model));
     const Model& model = *solved.model;
     timings.hierarchy = model.hierarchy_seconds;
     timings.links = model.links_seconds;
@@ -55,8 +60,8 @@ void forget_model(SolvedScene& solved) {
     solved.model.reset();
 }
 
-void run_pruning(const StageInput& input, SolvedScene& solved, Report::Timings&,
-                 Progress& progress) {
+void run_pruning(const StageInput& input, const Stages::Reuse&, SolvedScene& solved,
+                 Report::Timings&, Progress& progress) {
     if (!prunes(input.options)) return;
     const Model& model = *solved.model;
     progress.begin_stage("Pruning links", 0.4F, 0.45F);
@@ -84,16 +89,26 @@ void forget_pruning(SolvedScene& solved) {
     solved.pruned.reset();
 }
 
-void run_direct_light(const StageInput& input, SolvedScene& solved, Report::Timings& timings,
-                      Progress& progress) {
+void run_direct_light(const StageInput& input, const Stages::Reuse& reuse, SolvedScene& solved,
+                      Report::Timings& timings, Progress& progress) {
     Stopwatch watch;
     progress.begin_stage("Direct light", 0.45F, 0.6F);
     solved.direct = std::make_shared<DirectLight>(input.scene, solved.model->rays,
                                                   input.options.direct_light, progress);
     const auto shares = std::make_shared<LightShares>();
     const float tolerance = input.coarseness * input.coarseness * DirectLight::kLeafTolerance;
-    solved.leaf_direct = std::make_shared<std::vector<vec3>>(
-        solved.direct->leaf_irradiance(solved.model->tree, progress, shares.get(), tolerance));
+    const auto light_leaves = [&](const EarlierLight* earlier) {
+        solved.leaf_direct = std::make_shared<std::vector<vec3>>(solved.direct->leaf_irradiance(
+            solved.model->tree, progress, shares.get(), tolerance, earlier));
+    };
+    if (const SolvedScene* was = reuse.earlier; was && same_lights(*was->input, input)) {
+        const SceneChange change(was->input->scene, was->model->tree, input.scene,
+                                 solved.model->tree);
+        const EarlierLight earlier{change, was->model->tree, *was->leaf_direct, *was->light_shares};
+        light_leaves(&earlier);
+    } else {
+        light_leaves(nullptr);
+    }
     solved.light_shares = shares;
     timings.direct = watch.lap();
 }
@@ -111,8 +126,8 @@ void forget_direct_light(SolvedScene& solved) {
 
 // What the solver is given: light and reflectance of the leaves, and the links that the light
 // leaves or rays decide.
-void run_transport(const StageInput& input, SolvedScene& solved, Report::Timings& timings,
-                   Progress& progress) {
+void run_transport(const StageInput& input, const Stages::Reuse&, SolvedScene& solved,
+                   Report::Timings& timings, Progress& progress) {
     const Model& model = *solved.model;
     const Options& options = input.options;
     Stopwatch watch;
@@ -162,8 +177,8 @@ void forget_transport(SolvedScene& solved) {
     solved.mixed.reset();
 }
 
-void run_solve(const StageInput& input, SolvedScene& solved, Report::Timings& timings,
-               Progress& progress) {
+void run_solve(const StageInput& input, const Stages::Reuse&, SolvedScene& solved,
+               Report::Timings& timings, Progress& progress) {
     auto light = std::make_shared<SolvedScene::Light>();
     if (solved.model->tree.size() == 0) {
         light->figures = {"CPU", "", "no light reaches a surface: there is nothing to solve",
@@ -207,8 +222,8 @@ void forget_solve(SolvedScene& solved) {
 
 // Apart from the solution that is shown: the rules are for links with antiradiance, whatever it
 // has.
-void run_evaluation(const StageInput& input, SolvedScene& solved, Report::Timings&,
-                    Progress& progress) {
+void run_evaluation(const StageInput& input, const Stages::Reuse&, SolvedScene& solved,
+                    Report::Timings&, Progress& progress) {
     if (!input.options.evaluate_pruning) return;
     progress.begin_stage("Evaluating pruning", 0.75F, 0.8F);
     solved.pruning_table = std::make_shared<PruningTable>(
@@ -253,7 +268,7 @@ double Stages::expected_seconds(const StageInput& input) const {
     return std::accumulate(to_run.begin(), to_run.end(), 0.0);
 }
 
-SolvedScene Stages::run(StageInput input, Progress& progress, Report& report) {
+SolvedScene Stages::run(StageInput input, Progress& progress, Report& report, const Reuse& reuse) {
     done_ = first_changed(input);
     // Later ones borrow from earlier ones. The one after the done ones may have failed half way.
     for (std::size_t i = kStages.size(); i-- > done_;)
@@ -264,7 +279,7 @@ SolvedScene Stages::run(StageInput input, Progress& progress, Report& report) {
         report.stages.push_back({std::string(kStages[i].name), kept ? "kept" : "run"});
         if (!kept) {
             Stopwatch watch;
-            kStages[i].run(*solved_.input, solved_, report.timings_s, progress);
+            kStages[i].run(*solved_.input, reuse, solved_, report.timings_s, progress);
             seconds_[i] = watch.lap();
             done_ = i + 1;
         }
@@ -287,7 +302,7 @@ std::optional<SolvedScene> Stages::run_relit(StageInput input, Progress& progres
         report.stages.push_back({std::string(kStages[i].name), i < kFirst ? "kept" : "run"});
         if (i >= kFirst) {
             kStages[i].forget(relit);
-            kStages[i].run(*relit.input, relit, report.timings_s, progress);
+            kStages[i].run(*relit.input, {}, relit, report.timings_s, progress);
         }
         kStages[i].describe(*relit.input, relit, report);
     }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "base/progress.h"
 #include "pipeline/report.h"
@@ -23,11 +24,20 @@ public:
 
     Stages();
 
+    // What rays found in an earlier state of the scene, to hold where nothing has changed since.
+    struct Reuse {
+        bool keep = false;                     // what the next run can reuse, at 12 bytes a link
+        const SolvedScene* earlier = nullptr;  // all of its stages have run; null: nothing is known
+    };
+
     // Runs what `input` asks for. What a stage before had made of older input is freed first,
     // unless a SolvedScene that was returned before still has it.
     // Writes each stage's figures, warnings and whether it ran into `report`, as far as it gets.
     // Throws what the stages throw; those that were done by then are kept.
-    SolvedScene run(StageInput input, Progress& progress, Report& report);
+    SolvedScene run(StageInput input, Progress& progress, Report& report, const Reuse& reuse);
+    SolvedScene run(StageInput input, Progress& progress, Report& report) {
+        return run(std::move(input), progress, report, {});
+    }
 
     // What run() would return, but with direct light that follows from the last run's (relight()):
     // the strength of lights alone has changed, and no shadow ray is traced. None: more has

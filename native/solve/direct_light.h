@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "hierarchy/patch_tree.h"
+#include "hierarchy/scene_change.h"
 #include "scene/ray_scene.h"
 #include "scene/scene.h"
 #include "solve/solve_options.h"
@@ -64,6 +65,14 @@ struct LightShares {
     static constexpr std::size_t kMostLights = 32;
 };
 
+// Direct light of the leaves in an earlier state of the scene, whose lights were the same.
+struct EarlierLight {
+    const SceneChange& change;
+    const PatchTree& tree;
+    const std::vector<vec3>& irradiance;  // #nodes of `tree`, W/m2
+    const LightShares& shares;            // of it
+};
+
 class DirectLight {
 public:
     // mode kImplicit leaves emissive meshes and area lamps out: they emit along links. kShadowMaps
@@ -97,9 +106,12 @@ public:
     // Area average over every leaf's exposed part, W/m2.           // #nodes; 0 at inner nodes
     // shares: its parts, unless it is null; without lights where there are none, too many or maps.
     // tolerance: standard error at which rays end, relative.
+    // earlier: leaves that see all lights past nothing that has changed keep their light, unless
+    // it is null; ignored with maps.
     [[nodiscard]] std::vector<vec3> leaf_irradiance(const PatchTree& tree, Progress& progress,
                                                     LightShares* shares = nullptr,
-                                                    float tolerance = kLeafTolerance) const;
+                                                    float tolerance = kLeafTolerance,
+                                                    const EarlierLight* earlier = nullptr) const;
     static constexpr float kLeafTolerance = 0.01F;
 
     struct Impl;  // direct_light_estimate.h

@@ -5,6 +5,11 @@
 
 namespace antiradiance {
 
+Box Emitter::box() const {
+    const EmitterBounds sphere = bounds();
+    return {sphere.center - sphere.radius, sphere.center + sphere.radius};
+}
+
 vec3 Emitter::unshadowed_light(const SurfacePoint& receiver) const {
     constexpr std::uint32_t kColourSamples = 16;
     const float exact = unshadowed(receiver);

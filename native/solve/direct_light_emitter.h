@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "hierarchy/scene_change.h"
 #include "scene/scene.h"
 #include "solve/direct_light.h"
 
@@ -55,9 +56,11 @@ public:
                                         const vec3& /*direction*/) const {
         return 0;
     }
-    // Null-power bounds for emitters at infinity, which are never chosen among others.
+    // Of emitters at infinity, which are never chosen among others, the axis and the spread alone.
     [[nodiscard]] virtual EmitterBounds bounds() const = 0;
     [[nodiscard]] virtual bool at_infinity() const { return false; }
+    // Around all its points, if it is not at infinity.
+    [[nodiscard]] virtual Box box() const;
 
     // What shadow maps need.
     // Irradiance, W/m2, without occluders: exact where radiance is the same over the whole emitter,
@@ -110,6 +113,7 @@ public:
     [[nodiscard]] LightSample sample(const SurfacePoint& receiver, const vec2& u) const override;
     [[nodiscard]] float density(const SurfacePoint& receiver, const vec3& direction) const override;
     [[nodiscard]] EmitterBounds bounds() const override;
+    [[nodiscard]] Box box() const override;
     [[nodiscard]] EmitterPoint point(std::uint32_t index) const override;
     [[nodiscard]] float weight(const SurfacePoint& receiver,
                                const EmitterPoint& point) const override;

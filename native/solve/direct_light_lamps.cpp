@@ -168,7 +168,12 @@ public:
         return s;
     }
 
-    EmitterBounds bounds() const override { return {}; }
+    EmitterBounds bounds() const override {
+        EmitterBounds b;
+        b.axis = -to_sun_;
+        b.cos_spread = std::cos(half_);
+        return b;
+    }
     bool at_infinity() const override { return true; }
 
     EmitterPoint point(std::uint32_t index) const override {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Direct light of every leaf patch.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -82,10 +84,74 @@ std::vector<vec3> mapped_leaves(const DirectLight& light, const PatchTree& tree,
     return irradiance;
 }
 
+// Of which leaves light from an earlier state still holds.
+class KeptLeaves {
+public:
+    KeptLeaves(const DirectLight::Impl& light, const PatchTree& tree, const EarlierLight& earlier)
+        : tree_(tree), earlier_(earlier) {
+        for (const std::int32_t i : light.always) {
+            const Emitter& emitter = *light.emitters[static_cast<std::size_t>(i)];
+            if (emitter.at_infinity()) {
+                const EmitterBounds sky = emitter.bounds();
+                skies_.push_back({-sky.axis, std::acos(sky.cos_spread) + kSkyMargin});
+            } else {
+                lights_.push_back(emitter.box());
+            }
+        }
+        if (light.in_tree.empty()) return;
+        const std::vector<std::int32_t> neighbours = light.tree.emitters();
+        const std::size_t stretch = (neighbours.size() + kMostBoxes - 1) / kMostBoxes;
+        for (std::size_t i = 0; i < neighbours.size(); ++i) {
+            if (i % stretch == 0) lights_.emplace_back();
+            const std::int32_t emitter = light.in_tree[static_cast<std::size_t>(neighbours[i])];
+            lights_.back().add(light.emitters[static_cast<std::size_t>(emitter)]->box());
+        }
+    }
+
+    // The node of the earlier tree whose light is that of a leaf; kNone: rays have to look.
+    [[nodiscard]] NodeId operator()(NodeId leaf) const {
+        const NodeId twin = earlier_.change.earlier(leaf);
+        if (twin == kNone || !earlier_.tree.is_leaf(twin)) return kNone;
+        const Box& box = earlier_.change.box(leaf);
+        for (const Box& light : lights_) {
+            if (faces(leaf, light) && earlier_.change.may_be_between(box, light)) return kNone;
+        }
+        for (const Sky& sky : skies_) {
+            if (earlier_.change.may_be_before_sky(box, sky.direction, sky.angle)) return kNone;
+        }
+        return twin;
+    }
+
+private:
+    // Of more emitters in the tree, neighbours are looked at together.
+    static constexpr std::size_t kMostBoxes = 256;
+    static constexpr float kSkyMargin = 1e-3F;  // rad: the cosine is a float
+
+    struct Sky {
+        vec3 direction;
+        float angle;  // rad
+    };
+
+    // Whether any of the box lies before the leaf's plane.
+    [[nodiscard]] bool faces(NodeId leaf, const Box& box) const {
+        const auto n = static_cast<std::size_t>(leaf);
+        const vec3 to_farthest =
+            glm::mix(box.low, box.high, glm::greaterThan(tree_.normal[n], vec3(0))) -
+            tree_.center[n];
+        return glm::dot(to_farthest, tree_.normal[n]) > -tree_.radius[n] * 1e-3F;
+    }
+
+    const PatchTree& tree_;
+    const EarlierLight& earlier_;
+    std::vector<Box> lights_;
+    std::vector<Sky> skies_;
+};
+
 }  // namespace
 
 std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& progress,
-                                               LightShares* shares, float tolerance) const {
+                                               LightShares* shares, float tolerance,
+                                               const EarlierLight* earlier) const {
     std::vector<vec3> irradiance(tree.size(), vec3(0));
     if (shares) *shares = {};
     if (!any()) return irradiance;
@@ -95,6 +161,9 @@ std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& 
         shares->lights = impl_->lights;
         shares->irradiance.assign(impl_->lights.size(), irradiance);
     }
+    std::optional<KeptLeaves> kept;
+    if (earlier && earlier->shares.lights == (split ? shares->lights : std::vector<LightSource>{}))
+        kept.emplace(*impl_, tree, *earlier);
     parallel_for_blocks(
         tree.leaves.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
             std::vector<SurfacePoint> points;
@@ -104,6 +173,13 @@ std::vector<vec3> DirectLight::leaf_irradiance(const PatchTree& tree, Progress& 
                 const NodeId leaf = tree.leaves[i];
                 if (!can_be_lit(tree, leaf)) continue;
                 const auto n = static_cast<std::size_t>(leaf);
+                if (const NodeId twin = kept ? (*kept)(leaf) : kNone; twin != kNone) {
+                    const auto was = static_cast<std::size_t>(twin);
+                    irradiance[n] = earlier->irradiance[was];
+                    for (std::size_t light = 0; light < parts.size(); ++light)
+                        shares->irradiance[light][n] = earlier->shares.irradiance[light][was];
+                    continue;
+                }
                 irradiance[n] = leaf_mean(*impl_, tree, leaf, tolerance, points, parts);
                 for (std::size_t light = 0; light < parts.size(); ++light)
                     shares->irradiance[light][n] = parts[light];

@@ -134,6 +134,13 @@ float PolygonEmitter::density(const SurfacePoint& receiver, const vec3& directio
     return omega > 0 ? 1 / omega : 0.0F;
 }
 
+Box PolygonEmitter::box() const {
+    Box box;
+    for (std::size_t i = 0; i < count_; ++i)
+        box.add(corners_[i]);
+    return box;
+}
+
 EmitterBounds PolygonEmitter::bounds() const {
     EmitterBounds b;
     b.center = center_;

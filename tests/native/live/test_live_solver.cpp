@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <string>
@@ -69,6 +70,34 @@ TEST(LiveSolver, ACoarseSolutionComesBeforeTheWholeOne) {
     EXPECT_FALSE(last.preliminary);
     EXPECT_LT(first.report.leaves * 4, last.report.leaves);
     EXPECT_LT(first.report.links.total * 4, last.report.links.total);
+}
+
+TEST(LiveSolver, AMovedObjectKeepsTheRaysThatItDoesNotTouch) {
+    const auto with_box = [](float x) {
+        StageInput input = office();
+        test::add_box(input.scene, "box", {x, 2.6F, 0.1F}, {x + 0.3F, 2.9F, 0.5F}, kWood);
+        return input;
+    };
+    LiveSolver solver;
+    solver.post(with_box(1));
+    ASSERT_TRUE(wait_until_done(solver));
+    const std::size_t all = solver.newest()->report.visibility.rays;
+    solver.post(with_box(1.3F));
+    ASSERT_TRUE(wait_until_done(solver));
+    const LiveSolver::Solution& moved = *solver.newest();
+    EXPECT_FALSE(moved.preliminary);
+    EXPECT_GT(moved.report.visibility.rays, 0U);
+    EXPECT_LT(moved.report.visibility.rays * 2, all);
+    // It is there: the box has patches, and they have light.
+    const PatchTree& tree = moved.scene.model->tree;
+    float brightest = 0;
+    for (const NodeId leaf : tree.leaves) {
+        const vec3& c = tree.center[static_cast<std::size_t>(leaf)];
+        if (c.x > 1.35F && c.x < 1.55F && c.y > 2.65F && c.y < 2.85F && c.z == 0.5F)
+            brightest =
+                std::max(brightest, (*moved.scene.leaf_direct)[static_cast<std::size_t>(leaf)].x);
+    }
+    EXPECT_GT(brightest, 0);
 }
 
 TEST(LiveSolver, TheWholeSolutionIsThatOfARender) {
