@@ -4,27 +4,12 @@
 // came, went or changed its shape can have crossed, then or now.
 #pragma once
 
-#include <limits>
 #include <vector>
 
+#include "base/box.h"
 #include "hierarchy/patch_tree.h"
 
 namespace antiradiance {
-
-// Axis-aligned, m; low > high: empty.
-struct Box {
-    vec3 low{std::numeric_limits<float>::infinity()};
-    vec3 high{-std::numeric_limits<float>::infinity()};
-
-    void add(const vec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    void add(const Box& box) {
-        low = glm::min(low, box.low);
-        high = glm::max(high, box.high);
-    }
-};
 
 // Whether the convex hull of two boxes may meet a third one; false only if it does not.
 [[nodiscard]] bool may_cross(const Box& from, const Box& to, const Box& obstacle);

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/box.h"
 #include "base/types.h"
-#include "hierarchy/scene_change.h"
 #include "scene/scene.h"
 #include "solve/direct_light.h"
 
