@@ -22,7 +22,7 @@ public:
                 const PatchTree& now_tree);
 
     // The node of the earlier tree with the place, shape and exposed share of node n of the present
-    // one; kNone: there is none, or its emission may differ.
+    // one; kNone: there is none.
     [[nodiscard]] NodeId earlier(NodeId n) const { return earlier_[static_cast<std::size_t>(n)]; }
     // Around node n of the present tree.
     [[nodiscard]] const Box& box(NodeId n) const { return boxes_[static_cast<std::size_t>(n)]; }

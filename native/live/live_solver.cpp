@@ -164,12 +164,12 @@ void LiveSolver::solve(const Edit& edit, Progress& progress) {
     if (whole_.expected_seconds(input) > kSoon) {
         if (!solve_relit(input, edit, warnings, progress))
             last_coarse_ =
-                solve_with(coarse_, coarse_input(input), last_coarse_, edit, warnings, progress);
+                solve_with(coarse_, coarse_input(input), last_coarse_ ? &*last_coarse_ : nullptr,
+                           edit, warnings, progress);
         unshield();
     }
     const auto whole = newest_whole();
-    solve_with(whole_, std::move(input), whole ? std::optional(whole->scene) : std::nullopt, edit,
-               warnings, progress);
+    solve_with(whole_, std::move(input), whole ? &whole->scene : nullptr, edit, warnings, progress);
 }
 
 bool LiveSolver::solve_relit(const StageInput& input, const Edit& edit,
@@ -181,14 +181,14 @@ bool LiveSolver::solve_relit(const StageInput& input, const Edit& edit,
     return relit.has_value();
 }
 
-SolvedScene LiveSolver::solve_with(Stages& stages, StageInput input,
-                                   const std::optional<SolvedScene>& earlier, const Edit& edit,
-                                   const std::vector<std::string>& warnings, Progress& progress) {
+SolvedScene LiveSolver::solve_with(Stages& stages, StageInput input, const SolvedScene* earlier,
+                                   const Edit& edit, const std::vector<std::string>& warnings,
+                                   Progress& progress) {
     Stopwatch watch;
     const bool preliminary = input.coarseness > 1;
     Report report = report_of(edit, warnings);
-    SolvedScene solved = stages.run(std::move(input), progress, report,
-                                    {.keep = true, .earlier = earlier ? &*earlier : nullptr});
+    SolvedScene solved =
+        stages.run(std::move(input), progress, report, {.keep = true, .earlier = earlier});
     publish(solved, std::move(report), watch.lap(), preliminary);
     return solved;
 }

@@ -79,10 +79,10 @@ private:
 
     void serve();
     void solve(const Edit& edit, Progress& progress);
-    // earlier: what rays found there holds where nothing has moved since.
-    SolvedScene solve_with(Stages& stages, StageInput input,
-                           const std::optional<SolvedScene>& earlier, const Edit& edit,
-                           const std::vector<std::string>& warnings, Progress& progress);
+    // earlier: what rays found there holds where nothing has moved since; null: nothing is known.
+    SolvedScene solve_with(Stages& stages, StageInput input, const SolvedScene* earlier,
+                           const Edit& edit, const std::vector<std::string>& warnings,
+                           Progress& progress);
     // False: the edit changed more than the strength of lights.
     bool solve_relit(const StageInput& input, const Edit& edit,
                      const std::vector<std::string>& warnings, Progress& progress);

@@ -26,7 +26,7 @@ public:
 
     // What rays found in an earlier state of the scene, to hold where nothing has changed since.
     struct Reuse {
-        bool keep = false;                     // what the next run can reuse, at 12 bytes a link
+        bool keep = false;                     // what the next run can reuse, at 12 bytes a pair
         const SolvedScene* earlier = nullptr;  // all of its stages have run; null: nothing is known
     };
 

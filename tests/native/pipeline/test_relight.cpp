@@ -3,15 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 
 #include "pipeline/stages.h"
+#include "relative_rms.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
 
 namespace antiradiance {
 namespace {
+
+using test::relative_rms;
 
 constexpr int kPanel = 1;  // the material of the office's luminous panel
 
@@ -39,17 +41,6 @@ SolvedScene solve(Stages& stages, const StageInput& input) {
 SolvedScene solve(const StageInput& input) {
     Stages stages;
     return solve(stages, input);
-}
-
-double relative_rms(const std::vector<vec3>& values, const std::vector<vec3>& reference) {
-    double error = 0;
-    double norm = 0;
-    for (std::size_t n = 0; n < values.size(); ++n) {
-        const vec3 difference = values[n] - reference[n];
-        error += static_cast<double>(glm::dot(difference, difference));
-        norm += static_cast<double>(glm::dot(reference[n], reference[n]));
-    }
-    return std::sqrt(error / norm);
 }
 
 const auto dim_the_lamp = [](StageInput& i) { i.scene.lamps[0].power *= vec3(0.3F, 1, 1); };

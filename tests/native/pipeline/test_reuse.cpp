@@ -7,11 +7,14 @@
 #include <utility>
 
 #include "pipeline/stages.h"
+#include "relative_rms.h"
 #include "support/scene_builder.h"
 #include "support/scenes.h"
 
 namespace antiradiance {
 namespace {
+
+using test::relative_rms;
 
 // The office with a box that stands free, in the light of a lamp and of its luminous panel.
 StageInput office(const vec3& box) {
@@ -32,17 +35,6 @@ SolvedScene solve(const StageInput& input, const SolvedScene* earlier = nullptr)
     Progress progress;
     Report report;
     return stages.run(input, progress, report, {.keep = true, .earlier = earlier});
-}
-
-double relative_rms(const std::vector<vec3>& values, const std::vector<vec3>& reference) {
-    double error = 0;
-    double norm = 0;
-    for (std::size_t n = 0; n < values.size(); ++n) {
-        const vec3 difference = values[n] - reference[n];
-        error += static_cast<double>(glm::dot(difference, difference));
-        norm += static_cast<double>(glm::dot(reference[n], reference[n]));
-    }
-    return std::sqrt(error / norm);
 }
 
 TEST(Reuse, AMovedObjectGetsTheLightOfARebuild) {
